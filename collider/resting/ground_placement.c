@@ -2,7 +2,7 @@
 #include "collider/resting/ground_placement.h"
 
 #include "world/body_points.h"
-#include "world/terrain/rest_pose.h"
+#include "world/course_lift.h"
 #include "world/vehicle_shell.h"
 #include "world/world.h"
 
@@ -19,7 +19,10 @@ void ground_placement_put(struct response_context *context, uint32_t row, struct
     const struct kind *kind = &context->world->kinds[e->kind[row]];
     if (e->state[row] == ENTITY_ACTIVE && kind->domain == DOMAIN_LAND &&
         !(e->flags[row] & ENTITY_FLAG_CHASSIS)) {
-        struct rest_pose pose = rest_pose_of(terrain, craters, kind, at.x, at.z, heading_rad);
+        const struct rest_pose pose =
+            e->behaviour[row] == BEHAVIOUR_HOLD
+                ? course_lift_pose(context->world, craters, e->kind[row], at.x, at.z, heading_rad)
+                : rest_pose_of(terrain, craters, kind, at.x, at.z, heading_rad);
         at.y = pose.y_m;
         table_set_pitch(&context->writer, row, pose.pitch_rad);
         table_set_roll(&context->writer, row, pose.roll_rad);

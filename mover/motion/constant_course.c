@@ -5,6 +5,7 @@
 #include "mover/motion/kinematics.h"
 #include "mover/motion/ship.h"
 #include "mover/query/ground_marks.h"
+#include "world/course_lift.h"
 #include "world/terrain/gridsquare.h"
 #include "world/world.h"
 
@@ -47,20 +48,35 @@ bool constant_course_take(const struct step_context *context, struct constant_co
     return batch->count == LANE_COUNT;
 }
 
+/* Lifts row i, whose place and pose are known, out of works and craters. */
+static void lift(const struct step_context *context, uint32_t i)
+{
+    struct entities *m = context->m;
+    const struct rest_pose pose = {m->y[i], m->pitch[i], m->roll[i]};
+    m->y[i] += course_lift(context->world, context->craters, m->kind[i], m->x[i], m->z[i],
+                           m->heading[i], &pose);
+}
+
 /* Writes height, pitch and roll of lane l, row i. A row that comes from its springs eases to them.
  */
 static void set_down(const struct step_context *context, const struct ground_pose *pose, int l,
                      uint32_t i)
 {
+    const struct entities *w = &context->committed->entities;
     struct entities *m = context->m;
-    if (m->flags[i] & ENTITY_FLAG_CHASSIS) {
-        const struct vec3 ground = {pose->y.lane[l], pose->pitch.lane[l], pose->roll.lane[l]};
-        ground_vehicle_ease(context, i, ground);
-        return;
-    }
     m->y[i] = pose->y.lane[l];
     m->pitch[i] = pose->pitch.lane[l];
     m->roll[i] = pose->roll.lane[l];
+    if (pose->cratered.lane[l])
+        lift(context, i);
+    if (!(m->flags[i] & ENTITY_FLAG_CHASSIS))
+        return;
+    const struct rest_pose now = {m->y[i], m->pitch[i], m->roll[i]};
+    const struct rest_pose before = course_lift_pose(context->world, context->craters, m->kind[i],
+                                                     w->x[i], w->z[i], w->heading[i]);
+    ground_vehicle_ease(context, i, &before, &now);
+    if (pose->cratered.lane[l])
+        lift(context, i);
 }
 
 void constant_course_set_down(const struct step_context *context, struct constant_course *batch)

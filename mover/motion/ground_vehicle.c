@@ -14,7 +14,6 @@
 #include "world/maths/cpu_dispatch.h"
 #include "world/state.h"
 #include "world/terrain/gridsquare.h"
-#include "world/terrain/rest_pose.h"
 #include "world/world.h"
 
 #include <string.h>
@@ -419,64 +418,73 @@ static inline void change_position(const struct step_context *context, struct gr
 #define EASE_MPS 0.04
 #define EASE_RPS 0.04
 
-/* Returns height, pitch and roll of a row that comes back to those of the ground. */
-static struct vec3 eased(const struct step_context *context, uint32_t i,
-                         struct vec3 height_pitch_roll)
+/* Returns the pose of a row that comes back to that of the ground. before, now: of the ground, at
+ * its old and at its new place. */
+static struct rest_pose eased(const struct step_context *context, uint32_t i,
+                              const struct rest_pose *before, const struct rest_pose *now)
 {
     const struct entities *w = &context->committed->entities;
-    const struct rest_pose before =
-        rest_pose_of(&context->world->terrain, context->craters,
-                     &context->world->kinds[context->m->kind[i]], w->x[i], w->z[i], w->heading[i]);
     const double most_m = EASE_MPS * context->dt_s, most_rad = EASE_RPS * context->dt_s;
-    const struct vec3 off = {
-        kinematics_approach(w->y[i] - before.y_m, 0.0, most_m),
-        kinematics_approach(w->pitch[i] - before.pitch_rad, 0.0, most_rad),
-        kinematics_approach(w->roll[i] - before.roll_rad, 0.0, most_rad),
-    };
-    return vec3_add(height_pitch_roll, off);
+    return (struct rest_pose){
+        now->y_m + kinematics_approach(w->y[i] - before->y_m, 0.0, most_m),
+        now->pitch_rad + kinematics_approach(w->pitch[i] - before->pitch_rad, 0.0, most_rad),
+        now->roll_rad + kinematics_approach(w->roll[i] - before->roll_rad, 0.0, most_rad)};
 }
 
 void ground_vehicle_ease(const struct step_context *context, uint32_t i,
-                         struct vec3 height_pitch_roll)
+                         const struct rest_pose *before, const struct rest_pose *now)
 {
     struct entities *m = context->m;
-    const struct vec3 to = eased(context, i, height_pitch_roll);
-    m->y[i] = to.x;
-    m->pitch[i] = to.y;
-    m->roll[i] = to.z;
+    const struct rest_pose to = eased(context, i, before, now);
+    m->y[i] = to.y_m;
+    m->pitch[i] = to.pitch_rad;
+    m->roll[i] = to.roll_rad;
     m->spin_x[i] = m->spin_y[i] = m->spin_z[i] = 0.0;
-    if (to.x == height_pitch_roll.x && to.y == height_pitch_roll.y && to.z == height_pitch_roll.z)
+    if (to.y_m == now->y_m && to.pitch_rad == now->pitch_rad && to.roll_rad == now->roll_rad)
         m->flags[i] &= (uint8_t)~ENTITY_FLAG_CHASSIS;
 }
 
-/* Returns height, pitch and roll of the ground where the row has moved to. */
-static struct vec3 ground_of(const struct ground_vehicle *batch, int l)
+/* Returns how the ground bears the row where it has moved to. */
+static struct rest_pose ground_of(const struct ground_vehicle *batch, int l)
 {
-    return (struct vec3){batch->pose.y.lane[l], batch->pose.pitch.lane[l],
-                         batch->pose.roll.lane[l]};
+    return (struct rest_pose){batch->pose.y.lane[l], batch->pose.pitch.lane[l],
+                              batch->pose.roll.lane[l]};
 }
 
-/* Returns height, pitch and roll that the ground gives the row, which has moved. */
-static struct vec3 set_on(const struct step_context *context, const struct ground_vehicle *batch,
-                          int l)
+/* The same where the row was when the frame began. */
+static struct rest_pose ground_before(const struct step_context *context, uint32_t i)
+{
+    const struct entities *w = &context->committed->entities;
+    return rest_pose_of(&context->world->terrain, context->craters,
+                        &context->world->kinds[context->m->kind[i]], w->x[i], w->z[i],
+                        w->heading[i]);
+}
+
+/* Returns the pose that the ground gives the row, which has moved. */
+static struct rest_pose set_on(const struct step_context *context,
+                               const struct ground_vehicle *batch, int l)
 {
     const uint32_t i = batch->row[l];
-    const struct vec3 ground = ground_of(batch, l);
-    return context->m->flags[i] & ENTITY_FLAG_CHASSIS ? eased(context, i, ground) : ground;
+    const struct rest_pose ground = ground_of(batch, l);
+    if (!(context->m->flags[i] & ENTITY_FLAG_CHASSIS))
+        return ground;
+    const struct rest_pose before = ground_before(context, i);
+    return eased(context, i, &before, &ground);
 }
 
 static void set_down(const struct step_context *context, const struct ground_vehicle *batch, int l)
 {
     struct entities *m = context->m;
-    const struct vec3 ground = ground_of(batch, l);
+    const struct rest_pose ground = ground_of(batch, l);
     uint32_t i = batch->row[l];
     if (m->flags[i] & ENTITY_FLAG_CHASSIS) {
-        ground_vehicle_ease(context, i, ground);
+        const struct rest_pose before = ground_before(context, i);
+        ground_vehicle_ease(context, i, &before, &ground);
         return;
     }
-    m->y[i] = ground.x;
-    m->pitch[i] = ground.y;
-    m->roll[i] = ground.z;
+    m->y[i] = ground.y_m;
+    m->pitch[i] = ground.pitch_rad;
+    m->roll[i] = ground.roll_rad;
 }
 
 /* Returns how fast a row climbs that leaves the ground with this pitch [m/s]. */
@@ -509,11 +517,12 @@ static enum entry entry_of(const struct step_context *context, const struct grou
     const struct crater_index *craters = pose->cratered.lane[l] ? context->craters : NULL;
     const uint32_t points = bends ? VEHICLE_SHELL_SIDES : VEHICLE_SHELL_ENDS;
     const double heading = batch->heading.lane[l], dt_s = ground_vehicle_time_s(context, batch);
-    const struct vec3 stands = set_on(context, batch, l);
-    struct vec3 at = {pose->x.lane[l], stands.x, pose->z.lane[l]};
-    const struct vec3 way = {batch->vx.lane[l] * dt_s, climb_of(batch, l, heading, stands.y) * dt_s,
+    const struct rest_pose stands = set_on(context, batch, l);
+    struct vec3 at = {pose->x.lane[l], stands.y_m, pose->z.lane[l]};
+    const struct vec3 way = {batch->vx.lane[l] * dt_s,
+                             climb_of(batch, l, heading, stands.pitch_rad) * dt_s,
                              batch->vz.lane[l] * dt_s};
-    struct mat3 turn = rotation_matrix(rotation_of(heading, stands.y, stands.z));
+    struct mat3 turn = rotation_matrix(rotation_of(heading, stands.pitch_rad, stands.roll_rad));
     if (vehicle_shell_depth(terrain, craters, kind, points, at, &turn) <= 0.0 &&
         vehicle_shell_depth(terrain, craters, kind, points, vec3_add(at, way), &turn) <= 0.0)
         return STAYS_OUT;

@@ -5,6 +5,7 @@
 #define JOLON_MOVER_MOTION_GROUND_VEHICLE_H
 
 #include "mover/motion/ground_pose.h"
+#include "world/terrain/rest_pose.h"
 
 struct ground_vehicle {
     int count;       /* lanes taken */
@@ -61,9 +62,10 @@ void ground_vehicle_move(const struct step_context *context, struct ground_vehic
 
 /* Writes height, pitch and roll of row i, which has ENTITY_FLAG_CHASSIS and is calm. It goes with
  * the ground, and what it differs by from a row that follows the ground eases to nothing, bit by
- * bit. height_pitch_roll: of such a row at its new place. Takes the flag away when they agree. */
+ * bit. before, now: how such a row stands at its old and at its new place. Takes the flag away when
+ * they agree. */
 void ground_vehicle_ease(const struct step_context *context, uint32_t i,
-                         struct vec3 height_pitch_roll);
+                         const struct rest_pose *before, const struct rest_pose *now);
 
 /* Returns the share of full speed that debris leaves row i where it is. */
 double ground_vehicle_debris(const struct step_context *context, uint32_t i);

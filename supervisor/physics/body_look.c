@@ -107,6 +107,8 @@ static void read_motion(struct motion_look *look, const struct body_looks *looks
                                  .wreck = e->state[row] == ENTITY_WRECK};
     look->sprung =
         !look->wreck && domain == DOMAIN_LAND && (e->flags[row] & ENTITY_FLAG_CHASSIS) != 0;
+    look->courses = !look->wreck && !look->sprung && domain == DOMAIN_LAND &&
+                    e->behaviour[row] == BEHAVIOUR_HOLD;
     look->at_rest = is_at_rest(look, e->until_tick[row], state->head->tick);
 }
 

@@ -41,6 +41,7 @@ struct motion_look {
     bool wreck;
     struct sprung_look springs; /* of a vehicle on its springs */
     bool sprung;                /* a vehicle on its springs, which need not be on the ground */
+    bool courses;               /* a land vehicle that holds its course, and is not on them */
     bool grounded;              /* an aircraft or a wreck that may touch the ground */
     bool at_rest;               /* a wreck that the mover leaves as it is, or that has not moved */
 };

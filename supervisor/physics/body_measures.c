@@ -16,6 +16,9 @@
 #define EDGE_M         1.0  /* a vehicle whose end is no farther from the edge of the world */
 #define LEANING_RPS    3.0  /* an aircraft banks and pitches so fast */
 #define BOX_CORNERS    8u
+#define LIFTED_M       1e-6 /* a vehicle that is higher over where it stands has been lifted */
+#define PLACES_ALONG   17u  /* of an underside that is lifted out of works and craters */
+#define PLACES_ACROSS  9u
 #define FRAME_S        (1.0 / 60.0)
 #define STANCE_LEAST_M 0.5  /* a vehicle stands on half its length and width, at least on this */
 #define ONE_IMPACT     2u   /* counts of a touch group */
@@ -197,6 +200,41 @@ static double standing_height(const struct surface *surface, const struct body_l
     return surface_clearance(surface, &under);
 }
 
+static double place_height(const struct ground_look *ground, const struct body_look *body,
+                           struct vec3 place)
+{
+    const struct vec3 at = vec3_add(body->named.at, rigid_pose_out(&body->now.pose, place));
+    return at.y - surface_height(ground->surface, at.x, at.z);
+}
+
+/* Returns how high the lowest place of a vehicle that holds its course is over an uneven ground: of
+ * its hulls' corners, and of its underside in parts of length and width. */
+static double lowest_place(const struct ground_look *ground, const struct body_look *body)
+{
+    const struct kind *kind = body->kind;
+    double lowest = HUGE_VAL;
+    for (uint32_t i = 0; i < kind->hull_count; i++) {
+        const struct hull_shape *shape = &ground->shape[kind->first_hull + i];
+        for (uint32_t n = 0; n < shape->vertices; n++)
+            lowest = maths_min(lowest, place_height(ground, body, shape->vertex[n]));
+    }
+    for (uint32_t i = 0; i < PLACES_ALONG * PLACES_ACROSS; i++) {
+        double along = (double)(i % PLACES_ALONG) / (PLACES_ALONG - 1) - 0.5;
+        double across = (double)(i / PLACES_ALONG) / (PLACES_ACROSS - 1) - 0.5;
+        const struct vec3 place = {along * kind->length_m, 0.0, across * kind->width_m};
+        lowest = maths_min(lowest, place_height(ground, body, place));
+    }
+    return lowest;
+}
+
+/* Returns how high a land vehicle is over where it stands. One that holds its course is lifted out
+ * of works and craters, so that it is as high as its lowest place. */
+static double height_over_stand(const struct ground_look *ground, const struct body_look *body)
+{
+    double height = body->now.height_m - standing_height(ground->surface, body);
+    return body->now.courses && height > LIFTED_M ? lowest_place(ground, body) : height;
+}
+
 void body_measures_ground(struct measures *measures, const struct ground_look *ground,
                           struct body_look *body)
 {
@@ -217,7 +255,7 @@ void body_measures_ground(struct measures *measures, const struct ground_look *g
         surface_around(surface, at.x, at.z, reach_of(ground, body->kind));
     body->now.height_m = at.y - (part.flat ? part.at_m : surface_height(surface, at.x, at.z));
     if (!part.flat)
-        body->now.height_m -= standing_height(surface, body);
+        body->now.height_m = height_over_stand(ground, body);
     if (domain <= DOMAIN_SEA && !body->now.wreck && !body->now.sprung)
         measure_take(measures, MEASURE_OF_HEIGHT, fabs(body->now.height_m), &body->named, NULL);
     measure_corners(measures, ground, &part, body);

@@ -1,6 +1,7 @@
 /* Land vehicles drive at random speeds into random works: walls up to 2.5 m, trenches up to 3 m
- * deep, ramps with a lip, and craters. The judge looks at every frame: no corner of a shell is in
- * the ground by more than 2 cm, and springs give back no more than they took. Prints its seed. */
+ * deep, ramps with a lip, and craters; or they hold their course over them. The judge looks at
+ * every frame: no corner of a shell is in the ground by more than 2 cm, springs give back no more
+ * than they took, and what holds its course has no corner in the ground. Prints its seed. */
 #include "supervisor/physics/physics_check.h"
 #include "tests/support/steps.h"
 #include "world/maths/random.h"
@@ -18,6 +19,8 @@
 #define LANES  24u
 #define FRAMES (12 * 60)
 #define RUNS   4u
+
+#define COURSE_DEEP_M 1e-6 /* rounding */
 
 static struct fixture f;
 static struct physics_check check;
@@ -60,7 +63,13 @@ static void dig(uint64_t seed)
     }
 }
 
-static void run(uint64_t seed)
+/* Who holds a course needs a speed for it: 70 m in the time of a run. */
+static double courses_mps(enum behaviour behaviour)
+{
+    return behaviour == BEHAVIOUR_HOLD ? 6.0 : 0.0;
+}
+
+static void run(uint64_t seed, enum behaviour behaviour)
 {
     static const char *const kinds[] = {"tank", "carrier", "jeep", "truck", "hamburger", "flak"};
     size_t at = (size_t)snprintf(text, sizeof text, "earthworks = (\n");
@@ -72,13 +81,14 @@ static void run(uint64_t seed)
     for (uint32_t lane = 0; lane < LANES; lane++)
         fixture_put(&f, (struct fixture_entity){.kind = kinds[lane % 6],
                                                 .at = {24000.0 + 40.0 * lane, 100.0, 25000.0},
-                                                .behaviour = BEHAVIOUR_DRIVEN});
+                                                .velocity = {0.0, 0.0, -courses_mps(behaviour)},
+                                                .behaviour = behaviour});
     struct state now = fixture_state(&f);
     assert_int_equal(physics_check_begin(&check, &f.view.world, &now), 0);
     for (int frame = 0; frame < FRAMES; frame++) {
         const struct physics_events events = {f.view.events, f.view.world.params->event_slots};
         for (uint32_t row = 0; frame % 60 == 0 && row < LANES; row++) {
-            if (steps_rows(&f).state[row] == ENTITY_ACTIVE)
+            if (behaviour == BEHAVIOUR_DRIVEN && steps_rows(&f).state[row] == ENTITY_ACTIVE)
                 steps_pedals(&f, row, random_of(seed, row, 8, 0.2, 1.0), 0.0, GEAR_AUTOMATIC);
         }
         fixture_run(&f, 1);
@@ -93,7 +103,7 @@ static void test_shells_stay_out_of_the_ground_and_springs_give_what_they_took(v
                                               MEASURE_OF_SPRUNG_ENERGY, MEASURE_OF_FLOATING};
     (void)state;
     for (uint64_t seed = 1; seed <= RUNS; seed++) {
-        run(seed);
+        run(seed, BEHAVIOUR_DRIVEN);
         for (int n = 0; n < 3; n++) {
             const struct measure *measure = &check.measures.of[kinds[n]];
             printf("seed %llu: %-18s %.4g of %.4g %s, %llu looks: vehicle %u at %.2f s\n",
@@ -107,9 +117,27 @@ static void test_shells_stay_out_of_the_ground_and_springs_give_what_they_took(v
     }
 }
 
+/* They have no springs: the ground lifts them. */
+static void test_vehicles_on_their_course_stay_out_of_works_and_craters(void **state)
+{
+    (void)state;
+    for (uint64_t seed = 1; seed <= RUNS; seed++) {
+        run(seed, BEHAVIOUR_HOLD);
+        const struct measure *deep = &check.measures.of[MEASURE_OF_UNDERGROUND];
+        printf("seed %llu: corners at most %.3g m under the ground: vehicle %u at %.2f s\n",
+               (unsigned long long)seed, deep->worst, deep->body[0].id, deep->time_s);
+        assert_int_equal(deep->taken, (uint64_t)LANES * FRAMES);
+        assert_true(deep->worst < COURSE_DEEP_M);
+        assert_true(measure_good(&check.measures, MEASURE_OF_HEIGHT));
+        physics_check_free(&check);
+        fixture_close(&f);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_vehicles_on_their_course_stay_out_of_works_and_craters),
         cmocka_unit_test(test_shells_stay_out_of_the_ground_and_springs_give_what_they_took),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

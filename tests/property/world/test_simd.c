@@ -13,6 +13,7 @@
 #include "mover/motion/kinematics.h"
 #include "mover/query/ground_marks.h"
 #include "tests/support/steps.h"
+#include "world/course_lift.h"
 #include "world/terrain/fixed.h"
 #include "world/terrain/gridsquare.h"
 #include "world/terrain/terrain_cache.h"
@@ -325,16 +326,28 @@ static bool drive_one(const struct step_context *context, uint32_t i,
     return blocked;
 }
 
+static void lift_one(const struct step_context *context, uint32_t i)
+{
+    struct entities *m = context->m;
+    const struct rest_pose pose = {m->y[i], m->pitch[i], m->roll[i]};
+    m->y[i] += course_lift(context->world, context->craters, m->kind[i], m->x[i], m->z[i],
+                           m->heading[i], &pose);
+}
+
 static void hold_one(const struct step_context *context, uint32_t i)
 {
     struct entities *m = context->m;
-    double before = m->y[i], pitch = m->pitch[i], roll = m->roll[i];
+    double before = m->y[i];
     m->y[i] = standing_height(context, i, m->x[i], m->z[i]);
     stand_on_ground(context, i);
+    lift_one(context, i);
     if (m->flags[i] & ENTITY_FLAG_CHASSIS) {
-        const struct vec3 ground = {m->y[i], m->pitch[i], m->roll[i]};
-        m->y[i] = before, m->pitch[i] = pitch, m->roll[i] = roll;
-        ground_vehicle_ease(context, i, ground);
+        const struct entities *w = &context->committed->entities;
+        const struct rest_pose ground = {m->y[i], m->pitch[i], m->roll[i]};
+        const struct rest_pose was = course_lift_pose(context->world, context->craters, m->kind[i],
+                                                      w->x[i], w->z[i], w->heading[i]);
+        ground_vehicle_ease(context, i, &was, &ground);
+        lift_one(context, i);
     }
     m->vy[i] = (m->y[i] - before) / context->dt_s;
 }
