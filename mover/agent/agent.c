@@ -473,6 +473,8 @@ static void think(const struct step_context *context, uint32_t i, const struct k
         aircraft_separation_keep(context, i, desired);
     if (is_aeroplane(kind) && !desired->driven)
         terrain_following_steer(context, i, desired);
+    else if (kind_hovers(kind) && !desired->driven)
+        terrain_following_hover(context, i, desired);
     if (disabled_drive(kind, m, i)) {
         desired->heading_rad = m->heading[i];
         desired->speed_mps = desired->turn = 0.0;

@@ -46,10 +46,6 @@
 #define CLIMB_AHEAD_S  8.0   /* how far ahead aircraft look at the ground */
 #define CLIMB_PLACES   8     /* at so many places */
 #define CLIMB_SHARE    0.8   /* of its rate of climb that it relies on */
-#define TURNS_AWAY_RAD 0.6   /* in a turn by more it may come to other ground */
-#define TURNS_SHARE    0.7 /* it turns when it can fly so much of its speed on the way of the turn */
-#define SLOWS_SHARE    0.8 /* of its speed that it gives up until then */
-#define CLIMB_BANK     1.2 /* slope of its bank while it turns, by 50 degrees */
 
 /* The fan: angles off the desired heading, with their sines and cosines. Direction PRESENT is the
  * present heading. */
@@ -623,56 +619,33 @@ static double stopping_speed(const struct look *look, double free_m)
     return brake * (sqrt(late_s * late_s + 2.0 * free_m / brake) - late_s);
 }
 
-/* Returns the greatest speed [m/s] at which an aircraft can climb over the ground ahead, on a way
- * that begins in a direction of the fan and turns by turn_rps until it has turned by off_rad. It
- * keeps half of its height over each place. */
+/* Returns the greatest speed [m/s] at which an aeroplane can climb over the ground ahead, along a
+ * direction of the fan. It keeps half of its height over each place. */
 static double climbing_speed(const struct step_context *context, uint32_t i,
-                             const struct look *look, int k, double altitude_m, double off_rad,
-                             double turn_rps)
+                             const struct look *look, int k, double altitude_m)
 {
     const struct entities *m = context->m;
-    const double step_s = CLIMB_AHEAD_S / CLIMB_PLACES;
-    double step = maths_max(look->desired_mps, look->present_mps) * step_s, most = INFINITY;
-    double x = m->x[i], z = m->z[i], ux = look->x[k], uz = look->z[k], turned = 0.0, sine, cosine;
+    double way = maths_max(look->desired_mps, look->present_mps) * CLIMB_AHEAD_S, most = INFINITY;
     for (int n = 1; n <= CLIMB_PLACES; n++) {
-        x += step * ux;
-        z += step * uz;
-        double climb = kinematics_ground(context, x, z) + 0.5 * altitude_m - m->y[i];
+        double distance = way * n / CLIMB_PLACES;
+        double ground = kinematics_ground(context, m->x[i] + distance * look->x[k],
+                                          m->z[i] + distance * look->z[k]);
+        double climb = ground + 0.5 * altitude_m - m->y[i];
         if (climb > 0.0)
-            most = maths_min(most, CLIMB_SHARE * look->kind->climb_rate_mps * n * step / climb);
-        if (turned >= fabs(off_rad))
-            continue;
-        turned += turn_rps * step_s;
-        maths_sincos(off_rad < 0.0 ? -turn_rps * step_s : turn_rps * step_s, &sine, &cosine);
-        double next = ux * cosine - uz * sine;
-        uz = uz * cosine + ux * sine;
-        ux = next;
+            most = maths_min(most, CLIMB_SHARE * look->kind->climb_rate_mps * distance / climb);
     }
     return most;
 }
 
-/* Returns true if a helicopter has to slow down before it turns: the way of the turn may lead over
- * higher ground than the way straight on, and the slower it is the less way it needs. */
-static bool turns_later(const struct step_context *context, uint32_t i, const struct look *look,
-                        const struct desired_motion *desired)
-{
-    double off = maths_wrap_half(desired->heading_rad - context->m->heading[i]);
-    if (!kind_hovers(look->kind) || fabs(off) < TURNS_AWAY_RAD)
-        return false;
-    double turn_rps =
-        maths_min(GRAVITY_MPS2 * CLIMB_BANK / look->present_mps, look->kind->turn_rate_rps);
-    double most = climbing_speed(context, i, look, PRESENT, desired->altitude_m, off, turn_rps);
-    return most < TURNS_SHARE * look->present_mps;
-}
-
-/* The greatest speed that the ground ahead allows: over it, or on it. An aircraft turns slowly, so
- * that the ground along its present heading counts as well. */
+/* The greatest speed that the ground ahead allows: over it, or on it. An aeroplane turns slowly, so
+ * that the ground along its present heading counts as well. Helicopters look at it by themselves
+ * (flight/terrain_following.h). */
 static double ground_speed(const struct step_context *context, uint32_t i, const struct look *look,
                            const struct desired_motion *desired)
 {
-    if (look->kind->domain == DOMAIN_AIR)
-        return maths_min(climbing_speed(context, i, look, 0, desired->altitude_m, 0.0, 0.0),
-                         climbing_speed(context, i, look, PRESENT, desired->altitude_m, 0.0, 0.0));
+    if (look->kind->domain == DOMAIN_AIR && !kind_hovers(look->kind))
+        return maths_min(climbing_speed(context, i, look, 0, desired->altitude_m),
+                         climbing_speed(context, i, look, PRESENT, desired->altitude_m));
     if (look->kind->domain == DOMAIN_LAND && look->sign > 0.0)
         return driving_pace(context, i, desired->heading_rad);
     return INFINITY;
@@ -733,11 +706,6 @@ static void look_ahead(const struct step_context *context, uint32_t i,
     }
     if (free_m < look.horizon_m)
         ease = maths_max(ease, 1.0 - stopping_speed(&look, free_m) / look.desired_mps);
-    if (flies && direction == 0 && turns_later(context, i, &look, desired)) {
-        direction = PRESENT;
-        off = maths_wrap_half(m->heading[i] - desired->heading_rad);
-        ease = maths_max(ease, SLOWS_SHARE);
-    }
     m->dodge[i] = (float)(direction < FAN ? fan_rad[direction] : off); /* backwards it only slows */
     m->ease[i] = (float)maths_max(ease, 0.0);
 }

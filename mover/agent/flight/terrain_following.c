@@ -4,6 +4,7 @@
 #include "mover/context/cruise_start.h"
 #include "mover/motion/aircraft.h"
 #include "mover/motion/airframe.h"
+#include "world/terrain/climb_ahead.h"
 #include "world/terrain/gridsquare.h"
 #include "world/terrain/square_bounds.h"
 #include "world/world.h"
@@ -64,20 +65,6 @@ static double top_at(const struct climb_look *look, double x, double z)
     return SQUARE_BOUNDS_LOWEST_M + SQUARE_BOUNDS_HEIGHT_M * bound;
 }
 
-/* Returns how much faster [m/s] than now it must climb to come as high in t seconds as with an even
- * rate. It changes its climb at pull_mps2, and is lower until it has: with a change c and t seconds
- * of pull p, c - c^2 / 2p = even - up_mps. Where that has no solution the pull is too weak, and the
- * result is a change for which there is no time. */
-static double change_of_climb(const struct climb_look *look, double even_mps, double t)
-{
-    double pulled = look->pull_mps2 * t, change = even_mps - look->up_mps;
-    if (change <= 0.0)
-        return change;
-    if (change >= 0.5 * pulled)
-        return 2.0 * change;
-    return pulled - sqrt(pulled * (pulled - 2.0 * change));
-}
-
 /* Returns the rate of climb [m/s] that is needed on the way that turns by off_rad, at a rate of
  * turn_rps at most. */
 static double needed_climb(const struct climb_look *look, double off_rad, double turn_rps)
@@ -92,7 +79,8 @@ static double needed_climb(const struct climb_look *look, double off_rad, double
         z -= cosine * look->speed_mps * step;
         t += step;
         double even = (top_at(look, x, z) + look->clear_m - look->y) / t;
-        rate = maths_max(rate, look->up_mps + change_of_climb(look, even, t));
+        double change = climb_ahead_change(look->up_mps, even, look->pull_mps2, t);
+        rate = maths_max(rate, look->up_mps + change);
     }
     return rate;
 }
@@ -134,6 +122,95 @@ void terrain_following_steer(const struct step_context *context, uint32_t i,
     if (m->behaviour[i] == BEHAVIOUR_SCRIPT && climb <= 0.0)
         return;
     climb = maths_min(climb, kind->climb_rate_mps);
+    double height = m->y[i] - aircraft_ground(context, i) + climb / AIRCRAFT_FOLLOW_PS;
+    desired->altitude_m = maths_max(desired->altitude_m, height);
+}
+
+/* --- helicopters -------------------------------------------------------------------------------*/
+
+#define BRAKES_MPS2  3.4  /* on which it relies: it leans back by 20 degrees */
+#define HOVER_PULL   0.4  /* [g] the same, upwards */
+#define HOVER_LATE_S 0.7  /* until its lean slows it down */
+#define HOVER_BANK   0.8  /* slope of its steepest bank in a turn, which leaves it power to climb */
+#define LEAST_BANK   0.2  /* and of the steepest where it is near the ground */
+#define HOVER_M      40.0 /* it looks so far ahead even at rest */
+#define HOVER_S      3.0  /* and in seconds, beyond the way in which it stops */
+#define HOVER_LEAN   0.5  /* sine of the steepest lean */
+#define HOVER_CLEAR  0.5  /* of the height that it wants, over the ground ahead */
+#define HOVER_LEAST  0.25 /* the same, which it must have */
+#define HOVER_SHARE  0.8  /* of its size, which it must have where it flies lower */
+#define STANDS_MPS   1.0  /* so slowly it turns in place */
+#define TURNS_SHARE  0.7  /* it turns when it can fly so much of its speed on the way of the turn */
+#define TURN_RAD     0.1  /* a smaller turn leads over the same ground */
+
+/* Returns the slope of the bank that the height over the ground leaves room for at its sides. */
+static double bank_room(const struct step_context *context, uint32_t i)
+{
+    const struct entities *m = context->m;
+    const struct kind *kind = &context->world->kinds[m->kind[i]];
+    double east, south, half = 0.5 * kind->width_m;
+    double ground = terrain_base_plane(&context->world->terrain, m->x[i], m->z[i], &east, &south);
+    double room = m->y[i] + kind->low_m - ground - half * sqrt(east * east + south * south);
+    return maths_clamp(room / half, LEAST_BANK, HOVER_BANK);
+}
+
+static struct climb_ahead look_ahead(const struct step_context *context, uint32_t i,
+                                     const struct desired_motion *desired, double bank)
+{
+    const struct entities *m = context->m;
+    const struct kind *kind = &context->world->kinds[m->kind[i]];
+    const double think_s = context->dt_s * (double)cruise_start_think_frames(context, i);
+    double speed = sqrt(m->vx[i] * m->vx[i] + m->vz[i] * m->vz[i]);
+    double tight = speed / maths_max(kind->turn_rate_rps, 0.01);
+    double body = maths_min(0.5 * HOVER_LEAN * kind->length_m - kind->low_m, desired->altitude_m);
+    bool astern = desired->speed_mps < 0.0;
+    return (struct climb_ahead){
+        .at = entities_position(m, i),
+        .up_mps = m->vy[i],
+        .speed_mps = speed,
+        .half_length_m = 0.5 * kind->length_m,
+        .half_width_m = 0.5 * kind->width_m,
+        .climb_mps = CLIMB_SHARE * kind->climb_rate_mps,
+        .pull_mps2 = HOVER_PULL * GRAVITY_MPS2,
+        .brake_mps2 = BRAKES_MPS2,
+        .late_s = HOVER_LATE_S + think_s,
+        .heading_rad = speed > STANDS_MPS ? maths_heading(m->vx[i], m->vz[i])
+                                          : m->heading[i] + (astern ? PI : 0.0),
+        .radius_m = maths_max(maths_max(speed * speed / (bank * GRAVITY_MPS2), tight), 1.0),
+        .length_m = speed * speed / (2.0 * BRAKES_MPS2) + HOVER_S * speed + HOVER_M,
+        .clear_m = maths_max(HOVER_CLEAR * desired->altitude_m, body),
+        .least_m = maths_max(HOVER_LEAST * desired->altitude_m, HOVER_SHARE * body),
+    };
+}
+
+/* It rises over what is ahead, on the way that it has and on the one that it turns to, and is no
+ * faster than it can. Where the turn leads over ground that is too high for its speed it holds its
+ * heading and slows down first: the slower it is, the less way the turn needs. */
+void terrain_following_hover(const struct step_context *context, uint32_t i,
+                             struct desired_motion *desired)
+{
+    const struct entities *m = context->m;
+    const struct kind *kind = &context->world->kinds[m->kind[i]];
+    const struct terrain *terrain = &context->world->terrain;
+    if (!(desired->altitude_m > 0.0)) /* it sets down */
+        return;
+    const double bank = bank_room(context, i);
+    struct climb_ahead ahead = look_ahead(context, i, desired, bank);
+    double astern = desired->speed_mps < 0.0 ? PI : 0.0;
+    struct climb_need need = climb_ahead_need(terrain, &ahead);
+    ahead.off_rad = maths_wrap_half(desired->heading_rad + astern - ahead.heading_rad);
+    if (fabs(ahead.off_rad) > TURN_RAD && desired->speed_mps != 0.0) {
+        struct climb_need turned = climb_ahead_need(terrain, &ahead);
+        need.climb_mps = maths_max(need.climb_mps, turned.climb_mps);
+        need.speed_mps = maths_min(need.speed_mps, turned.speed_mps);
+        if (turned.speed_mps < TURNS_SHARE * ahead.speed_mps && ahead.speed_mps > STANDS_MPS)
+            desired->heading_rad = m->heading[i];
+    }
+    double turn = maths_wrap_half(desired->heading_rad - m->heading[i]);
+    double most = bank * GRAVITY_MPS2 * AIRFRAME_TURN_S / maths_max(ahead.speed_mps, STANDS_MPS);
+    desired->heading_rad = m->heading[i] + maths_clamp(turn, -most, most);
+    desired->speed_mps = maths_clamp(desired->speed_mps, -need.speed_mps, need.speed_mps);
+    double climb = maths_min(need.climb_mps, kind->climb_rate_mps);
     double height = m->y[i] - aircraft_ground(context, i) + climb / AIRCRAFT_FOLLOW_PS;
     desired->altitude_m = maths_max(desired->altitude_m, height);
 }

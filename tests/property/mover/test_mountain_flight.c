@@ -16,7 +16,8 @@
 #define HZ       20u
 #define SECONDS  600u
 #define JETS     20u
-#define ROWS     30u /* aircraft at most */
+#define HOVERING 36u /* helicopters */
+#define ROWS     36u /* aircraft at most */
 #define POINTS   5
 #define HEIGHT_M 60.0 /* that the scripts give */
 
@@ -84,26 +85,36 @@ static void test_agents_do_not_fly_into_mountains(void **state)
     assert_int_equal(struck, 0);
 }
 
-/* Writes a script from place to place for each jet. */
-static void write_scripts(char *text, size_t size, uint64_t *random)
+/* Some aircraft of a kind, each with a script from place to place in a square. */
+struct scripted {
+    const char *kind;
+    uint32_t count;
+    double side_m; /* around the middle */
+    double low_mps, high_mps, low_m, high_m;
+};
+
+static void write_scripts(char *text, size_t size, const struct scripted *all, uint64_t *random)
 {
     int at = snprintf(text, size, "scripts = (");
-    for (uint32_t n = 0; n < JETS; n++) {
+    double from = 25000.0 - 0.5 * all->side_m, to = from + all->side_m;
+    for (uint32_t n = 0; n < all->count; n++) {
+        double speed = fixture_uniform(random, all->low_mps, all->high_mps);
+        double height = fixture_uniform(random, all->low_m, all->high_m);
         at += snprintf(text + at, size - (size_t)at, "%s{ name = \"s%u\"; repeat = true; steps = (",
                        n ? ", " : "", n);
         for (int point = 0; point < POINTS; point++)
             at += snprintf(text + at, size - (size_t)at,
-                           "%s{ go = [%.1f, %.1f]; speed_mps = 200.0; altitude_m = %.1f; }",
-                           point ? ", " : "", fixture_uniform(random, 3000.0, 47000.0),
-                           fixture_uniform(random, 3000.0, 47000.0), HEIGHT_M);
+                           "%s{ go = [%.1f, %.1f]; speed_mps = %.1f; altitude_m = %.1f; }",
+                           point ? ", " : "", fixture_uniform(random, from, to),
+                           fixture_uniform(random, from, to), speed, height);
         at += snprintf(text + at, size - (size_t)at, "); }");
     }
     at += snprintf(text + at, size - (size_t)at, ");\nvehicles = (");
-    for (uint32_t n = 0; n < JETS; n++)
+    for (uint32_t n = 0; n < all->count; n++)
         at += snprintf(text + at, size - (size_t)at,
-                       "%s{ kind = \"jet\"; script = \"s%u\"; altitude_m = 300.0; }", n ? ", " : "",
-                       n);
-    (void)snprintf(text + at, size - (size_t)at, ");");
+                       "%s{ kind = \"%s\"; script = \"s%u\"; altitude_m = 300.0; }", n ? ", " : "",
+                       all->kind, n);
+    (void)snprintf(text + at, size - (size_t)at, "); collision = { shape = \"model\"; };");
 }
 
 static int by_size(const void *a, const void *b)
@@ -124,7 +135,8 @@ static void test_scripted_jets_follow_the_ground(void **state)
         uint64_t random = seed + n;
         uint32_t count = 0;
         bool damaged[ROWS + 1] = {false};
-        write_scripts(groups, sizeof groups, &random);
+        const struct scripted jets = {"jet", JETS, 44000.0, 200.0, 200.0, HEIGHT_M, HEIGHT_M};
+        write_scripts(groups, sizeof groups, &jets, &random);
         open_mountains(seed + n, groups);
         for (uint32_t second = 0; second < SECONDS; second++) {
             fixture_continue(&f, HZ);
@@ -146,11 +158,84 @@ static void test_scripted_jets_follow_the_ground(void **state)
     assert_int_equal(struck, 0);
 }
 
+/* As low and as fast as they are told, where the ground lets them: they rise and slow down before
+ * slopes of up to 45 degrees. */
+static void test_scripted_helicopters_stay_off_slopes(void **state)
+{
+    static double over[HOVERING * SECONDS];
+    static char groups[16000];
+    uint64_t seed = fixture_seed(1);
+    uint32_t struck = 0;
+    (void)state;
+    for (uint64_t n = 0; n < seeds(); n++) {
+        uint64_t random = seed + n;
+        uint32_t count = 0;
+        bool damaged[ROWS + 1] = {false};
+        const struct scripted low = {"helicopter", HOVERING, 8000.0, 20.0, 75.0, 5.0, 20.0};
+        write_scripts(groups, sizeof groups, &low, &random);
+        open_mountains(seed + n, groups);
+        for (uint32_t second = 0; second < SECONDS; second++) {
+            fixture_continue(&f, HZ);
+            struck += crashes(damaged);
+            for (uint32_t row = 0; row < HOVERING && second >= 60; row++) {
+                struct vec3 at = steps_position(&f, row);
+                over[count] = at.y - steps_ground_at(&f, at.x, at.z);
+                count += steps_rows(&f).state[row] == ENTITY_ACTIVE;
+            }
+        }
+        qsort(over, count, sizeof over[0], by_size);
+        print_message("over the ground: 1 of 100 lower than %.0f m, half than %.0f m\n",
+                      over[count / 100], over[count / 2]);
+        assert_true(over[count / 2] < 50.0);
+        fixture_close(&f);
+    }
+    assert_int_equal(struck, 0);
+}
+
+/* Waves of ground, of which a tenth is steeper than 60 degrees. */
+static double steep(double x, double z, const void *context)
+{
+    (void)context;
+    double broad = 400.0 * maths_sin(x / 900.0 + 1.3 * maths_sin(z / 700.0));
+    double middle = 200.0 * maths_sin(z / 310.0 + 1.1 * maths_sin(x / 400.0));
+    double narrow = 60.0 * maths_sin((x + z) / 110.0 + maths_sin(x / 170.0));
+    return 1500.0 + 1.5 * (broad + middle + narrow + 20.0 * maths_sin((x - 0.7 * z) / 40.0));
+}
+
+static void test_agents_do_not_fly_into_steep_slopes(void **state)
+{
+    uint64_t seed = fixture_seed(1);
+    uint32_t struck = 0;
+    (void)state;
+    for (uint64_t n = 0; n < seeds(); n++) {
+        char text[400];
+        bool damaged[ROWS + 1] = {false};
+        (void)snprintf(text, sizeof text,
+                       "world = { seed = %u; capacity = 64; hz = %u.0; };\n"
+                       "terrain = { source = \"flat\"; height_m = 100.0; spacing_m = 31.25; };\n"
+                       "collision = { shape = \"model\"; };\n"
+                       "vehicles = ( { kind = \"helicopter\"; count = 36; altitude_m = 3000.0;\n"
+                       "  area = [21000.0, 21000.0, 29000.0, 29000.0]; } );",
+                       (unsigned)((seed + n) & 0xffff), HZ);
+        fixture_open(&f, text);
+        steps_ground(&f, steep, NULL);
+        fixture_forget_copies(&f);
+        for (uint32_t second = 0; second < SECONDS; second++) {
+            fixture_continue(&f, HZ);
+            struck += crashes(damaged);
+        }
+        fixture_close(&f);
+    }
+    assert_int_equal(struck, 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_agents_do_not_fly_into_mountains),
         cmocka_unit_test(test_scripted_jets_follow_the_ground),
+        cmocka_unit_test(test_scripted_helicopters_stay_off_slopes),
+        cmocka_unit_test(test_agents_do_not_fly_into_steep_slopes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
