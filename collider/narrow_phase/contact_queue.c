@@ -20,8 +20,11 @@
 
 #define PAIRS_A_PIECE  16
 #define FLIERS_A_PIECE 128
-#define DUE_A_PIECE    8 /* pairs of a change, most of which are near */
+#define DUE_A_PIECE    8u /* pairs of a change, most of which are near */
 #define ROWS_A_PIECE   16
+
+/* Fewer pairs of a change take less time than a meeting of two threads saves. */
+#define DUE_SHARED 128u
 
 /* Of so many searches that find no axis between two bodies, one looks for their nearest points. */
 #define FAILED_A_SEARCH 8u
@@ -543,7 +546,8 @@ void contact_queue_change(struct contact_queue *contacts, const struct contact_i
         work_done();
     }
     prepare_rows(&job);
-    thread_pool_run(contacts->workers, sweep_due, &job, contacts->due_count, DUE_A_PIECE);
+    thread_pool_run(contacts->workers, sweep_due, &job, contacts->due_count,
+                    contacts->due_count < DUE_SHARED ? DUE_SHARED : DUE_A_PIECE);
     for (uint32_t i = 0; i < contacts->due_count; i++) {
         if (contacts->due[i].meets)
             contact_heap_push(contacts, &contacts->due[i].contact);
