@@ -37,7 +37,7 @@ int collider_init(struct collider *collider, const struct world *world,
         island_init(&collider->island, world) != 0 ||
         contact_table_init(&collider->table, world) != 0 ||
         resting_init(&collider->resting, world, workers) != 0 ||
-        free_bodies_init(&collider->free, world) != 0 ||
+        free_bodies_init(&collider->free, world, workers) != 0 ||
         end_guard_init(&collider->guard, world, workers) != 0 ||
         charges_init(&collider->charges, world) != 0 ||
         pair_list_init(&collider->pairs, pair_filter_pairs_first(world)) != 0 ||

@@ -37,14 +37,16 @@
 #define CONTACT_TOUCHING_M (2.0 * CONTACT_REST_M)
 
 /* Marks of a pair. */
-#define CONTACT_RESTS    1u   /* collider/resting/ has solved it, or its bodies have met */
-#define CONTACT_PRESSED  2u   /* its bodies touched in this frame */
-#define CONTACT_OVERLAPS 4u   /* they overlap, and have to part in the next frame */
-#define CONTACT_GATHERED 8u   /* it belongs to the island that is being solved */
-#define CONTACT_PARTS    16u  /* it is deep: its bodies only have to part */
-#define CONTACT_HOLDS    32u  /* its bodies stand still because one keeps the other from moving */
-#define CONTACT_NO_ROOM  64u  /* its bodies touched, but the table of contacts has no room for it */
-#define CONTACT_CAPSULES 128u /* with _PARTS: it is so deep that its bodies part as capsules */
+#define CONTACT_RESTS    1u  /* collider/resting/ has solved it, or its bodies have met */
+#define CONTACT_PRESSED  2u  /* its bodies touched in this frame */
+#define CONTACT_OVERLAPS 4u  /* they overlap, and have to part in the next frame */
+#define CONTACT_GATHERED 8u  /* it belongs to the island that is being solved */
+#define CONTACT_PARTS    16u /* it is deep: its bodies only have to part */
+#define CONTACT_HOLDS    32u /* its bodies stand still because one keeps the other from moving */
+#define CONTACT_NO_ROOM  64u /* its bodies touched, but the table of contacts has no room for it */
+#define CONTACT_CAPSULES                                                                           \
+    128u /* with _PARTS: it is so deep that its bodies part as capsules,                           \
+               or they are aircraft */
 
 /* A point at which two bodies rest on each other, on the map. */
 struct rest_point {

@@ -164,7 +164,8 @@ static uint32_t place_of(const struct contact_table *table,
 static uint16_t flags_of(uint8_t marks)
 {
     return (uint16_t)((marks & CONTACT_OVERLAPS ? PERSISTENT_CONTACT_OVERLAPS : 0u) |
-                      (marks & CONTACT_HOLDS ? PERSISTENT_CONTACT_HOLDS : 0u));
+                      (marks & CONTACT_HOLDS ? PERSISTENT_CONTACT_HOLDS : 0u) |
+                      (marks & CONTACT_CAPSULES ? PERSISTENT_CONTACT_PARTS : 0u));
 }
 
 /* Returns the contact of a pair that has touched, as if it began in this frame. */
@@ -401,7 +402,7 @@ static void keep(struct response_context *context, const struct persistent_conta
                  const struct contact_gap *gap)
 {
     struct persistent_contact contact = *known;
-    contact.flags &= (uint16_t)~PERSISTENT_CONTACT_OVERLAPS;
+    contact.flags &= (uint16_t) ~(PERSISTENT_CONTACT_OVERLAPS | PERSISTENT_CONTACT_PARTS);
     if (one_may_part(context, known))
         contact.flags &= (uint16_t)~PERSISTENT_CONTACT_HOLDS;
     memset(contact.load, 0, sizeof contact.load);

@@ -125,12 +125,18 @@ static bool tips(const struct response_context *context, uint32_t row)
     return square(x, z) > most * most || rocks(context, row);
 }
 
-bool contact_groups_is_piloted(const struct response_context *context, uint32_t row)
+bool contact_groups_flies(const struct response_context *context, uint32_t row)
 {
     const struct entities *e = &context->next->entities;
     return e->state[row] == ENTITY_ACTIVE && e->behaviour[row] != BEHAVIOUR_FLIGHT &&
-           e->behaviour[row] != BEHAVIOUR_HOLD && !(e->flags[row] & ENTITY_FLAG_LANDED) &&
+           !(e->flags[row] & ENTITY_FLAG_LANDED) &&
            context->world->kinds[e->kind[row]].domain == DOMAIN_AIR;
+}
+
+bool contact_groups_is_piloted(const struct response_context *context, uint32_t row)
+{
+    return context->next->entities.behaviour[row] != BEHAVIOUR_HOLD &&
+           contact_groups_flies(context, row);
 }
 
 /* Returns true for a body that is free, no matter whether the ground holds it. Sets *held to true
@@ -190,6 +196,16 @@ static bool still_there(struct contact_groups *groups, const struct response_con
                : is_held(groups, context, contact->b_row, contact->b_id);
 }
 
+/* Returns true if two aircraft only have to part (collider/resting/aircraft_parting.h). */
+static bool parts_in_air(const struct response_context *context,
+                         const struct persistent_contact *contact)
+{
+    return contact->flags & PERSISTENT_CONTACT_PARTS &&
+           !(contact->b_id & PERSISTENT_CONTACT_FIXED) &&
+           contact_groups_flies(context, contact->a_row) &&
+           contact_groups_flies(context, contact->b_row);
+}
+
 /* Returns true if one of the bodies is free, and the other one can bear a load. */
 static bool is_free_pair(struct contact_groups *groups, const struct response_context *context,
                          const struct persistent_contact *contact)
@@ -198,7 +214,8 @@ static bool is_free_pair(struct contact_groups *groups, const struct response_co
     if (contact->b_id & PERSISTENT_CONTACT_FIXED)
         return a;
     bool b = is_free(groups, context, contact->b_row);
-    return (a || b) && (a || on_ground(groups, context, contact->a_row)) &&
+    return (a || b) && !parts_in_air(context, contact) &&
+           (a || on_ground(groups, context, contact->a_row)) &&
            (b || on_ground(groups, context, contact->b_row));
 }
 
@@ -449,16 +466,19 @@ static void add_pairs_of(struct contact_groups *groups, struct response_context 
     }
 }
 
+/* Which bodies are looked for among those that are new. */
+typedef bool new_body(const struct response_context *context, uint32_t row);
+
 /* Lists the block's bodies that were not there in the committed frame. */
 static void list_new(struct contact_groups *groups, const struct response_context *context,
-                     uint32_t block)
+                     uint32_t block, new_body *counts)
 {
     const struct entities *e = &context->next->entities;
     uint32_t first = block * CHECKSUM_ROWS, used = context->next->head->used;
     uint32_t end = used - first < CHECKSUM_ROWS ? used : first + CHECKSUM_ROWS;
     for (uint32_t row = first; row < end; row++) {
         if (e->state[row] == ENTITY_FREE || e->behaviour[row] == BEHAVIOUR_FLIGHT ||
-            !is_new(context, row) || !path_change_grounded(context, row))
+            !is_new(context, row) || !counts(context, row))
             continue;
         groups->begun[groups->begun_count++] = row;
     }
@@ -474,23 +494,33 @@ static bool may_be_new(const struct response_context *context, uint32_t block)
            committed->hashes[block].column[COLUMN_id] != next->hashes[block].column[COLUMN_id];
 }
 
-static void find_new(struct contact_groups *groups, struct response_context *context)
+/* Lists the bodies that are new and near others. */
+static void list_all_new(struct contact_groups *groups, struct response_context *context,
+                         new_body *counts)
 {
+    uint32_t kept = 0;
     uint32_t blocks = block_count(context->next->head->used);
     groups->begun_count = 0;
     for (uint32_t block = 0; block < blocks; block++) {
         if (may_be_new(context, block))
-            list_new(groups, context, block);
+            list_new(groups, context, block, counts);
     }
     broad_phase_expect_queries(context->broad, groups->begun_count);
     contact_queue_find_alone(context->contacts, &context->input, groups->begun,
                              groups->begun_count);
     for (uint32_t i = 0; i < groups->begun_count; i++) {
-        uint32_t row = groups->begun[i];
-        if (contact_queue_alone(context->contacts, row))
-            continue;
-        body_motion_require(context->motion, row);
-        add_pairs_of(groups, context, row);
+        if (!contact_queue_alone(context->contacts, groups->begun[i]))
+            groups->begun[kept++] = groups->begun[i];
+    }
+    groups->begun_count = kept;
+}
+
+static void find_new(struct contact_groups *groups, struct response_context *context)
+{
+    list_all_new(groups, context, path_change_grounded);
+    for (uint32_t i = 0; i < groups->begun_count; i++) {
+        body_motion_require(context->motion, groups->begun[i]);
+        add_pairs_of(groups, context, groups->begun[i]);
     }
 }
 
@@ -525,6 +555,7 @@ void contact_groups_find_free(struct contact_groups *groups, struct response_con
     const struct state *committed = context->motion->committed;
     bool any = false;
     groups->count = groups->known = 0;
+    list_all_new(groups, context, contact_groups_flies);
     for (uint32_t i = 0; !context->contacts_sleep && i < committed->head->contact_count; i++) {
         const struct persistent_contact *contact = &committed->contacts[i];
         bool a = is_there(context, contact->a_row, contact->a_id);

@@ -20,7 +20,8 @@ struct contact_groups {
     uint8_t *ground; /* [capacity of the world] what is known of a row in this search; 0: nothing */
     uint32_t *asked; /* rows of which something is */
     uint32_t asked_count;
-    uint32_t *begun; /* [capacity of the world] bodies that are new in this frame */
+    uint32_t *begun; /* [capacity of the world] bodies that are new in this frame and near others:
+                        those that the ground holds, or aircraft in the air */
     uint32_t begun_count;
 };
 
@@ -34,14 +35,18 @@ void contact_groups_free(struct contact_groups *groups);
 void contact_groups_find(struct contact_groups *groups, struct response_context *context);
 
 /* Finds the pairs of the groups that are awake of which one body is free, and the other is free, or
- * the ground holds it, or it is a wall. Wakes the wrecks that lean on something that is gone. */
+ * the ground holds it, or it is a wall. Wakes the wrecks that lean on something that is gone. Lists
+ * the aircraft that are new in this frame. */
 void contact_groups_find_free(struct contact_groups *groups, struct response_context *context);
 
 /* Returns true for a piloted aircraft, for a wreck that does not lie on the ground or that tips
  * over there, and for a vehicle on its springs that does not stand on the ground. */
 bool contact_groups_is_free(const struct response_context *context, uint32_t row);
 
-/* Returns true for an aircraft that is no wreck and does not only hold its course. */
+/* Returns true for an aircraft that is no wreck and does not lie on the ground. */
+bool contact_groups_flies(const struct response_context *context, uint32_t row);
+
+/* Returns true for one that does not only hold its course either. */
 bool contact_groups_is_piloted(const struct response_context *context, uint32_t row);
 
 /* Adds a pair to those found. */

@@ -42,7 +42,8 @@
 #define ROLLING_GROUND 0.1
 #define ROLLING_BODY   0.05
 
-int free_bodies_init(struct free_bodies *bodies, const struct world *world)
+int free_bodies_init(struct free_bodies *bodies, const struct world *world,
+                     struct thread_pool *workers)
 {
     uint32_t rows = world->params->capacity;
     /* A wreck among bushes has more pairs than the table of contacts keeps. */
@@ -53,11 +54,12 @@ int free_bodies_init(struct free_bodies *bodies, const struct world *world)
     bodies->side = reserve_take((uint64_t)rows + 1, sizeof *bodies->side);
     bodies->contact = reserve_take(bodies->contact_capacity, sizeof *bodies->contact);
     bodies->pair = reserve_take(pairs, sizeof *bodies->pair);
-    bodies->moved = reserve_take(rows, sizeof *bodies->moved);
+    bodies->moved = reserve_take(2 * (uint64_t)rows, sizeof *bodies->moved);
     bodies->body_of = calloc(rows, sizeof *bodies->body_of);
     bodies->owned = calloc(rows, sizeof *bodies->owned);
     bodies->drift = calloc(rows, sizeof *bodies->drift);
-    if (contact_groups_init(&bodies->groups, world) == 0 && bodies->body && bodies->side &&
+    if (contact_groups_init(&bodies->groups, world) == 0 &&
+        aircraft_parting_init(&bodies->air, world, workers) == 0 && bodies->body && bodies->side &&
         bodies->contact && bodies->pair && bodies->moved && bodies->body_of && bodies->owned &&
         bodies->drift)
         return 0;
@@ -69,6 +71,7 @@ int free_bodies_init(struct free_bodies *bodies, const struct world *world)
 void free_bodies_free(struct free_bodies *bodies)
 {
     contact_groups_free(&bodies->groups);
+    aircraft_parting_free(&bodies->air);
     reserve_free(bodies->body);
     reserve_free(bodies->side);
     reserve_free(bodies->contact);
@@ -397,12 +400,9 @@ static void forget(struct free_bodies *bodies)
     bodies->count = 1;
 }
 
-void free_bodies_solve(struct free_bodies *bodies, struct response_context *context)
+/* Solves the contacts of the groups, and moves their bodies. */
+static void solve(struct free_bodies *bodies, struct response_context *context)
 {
-    forget(bodies);
-    contact_groups_find_free(&bodies->groups, context);
-    if (bodies->groups.count == 0)
-        return;
     bodies->body[0] = (struct free_body){.inverse_mass = 0.0};
     bodies->side[0] = (struct free_side){.parent = 0};
     for (uint32_t i = 0; i < bodies->groups.count; i++)
@@ -415,4 +415,16 @@ void free_bodies_solve(struct free_bodies *bodies, struct response_context *cont
     free_solver_run(bodies->body, bodies->count, bodies->contact, bodies->contacts);
     mark(bodies, context);
     free_motion_run(bodies, context);
+}
+
+void free_bodies_solve(struct free_bodies *bodies, struct response_context *context)
+{
+    const struct contact_groups *groups = &bodies->groups;
+    forget(bodies);
+    contact_groups_find_free(&bodies->groups, context);
+    aircraft_parting_find(&bodies->air, context, groups->begun, groups->begun_count);
+    if (groups->count > 0)
+        solve(bodies, context);
+    bodies->moved_count =
+        aircraft_parting_go(&bodies->air, context, bodies->moved, bodies->moved_count);
 }

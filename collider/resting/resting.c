@@ -204,9 +204,8 @@ static void forget_bodies(struct resting *resting, uint32_t first)
     }
 }
 
-/* Reports a contact that begins with an overlap: no impact will do it. */
-static void report(struct response_context *context, const struct pair *pair,
-                   const struct level_gap *gap)
+void resting_report(struct response_context *context, const struct pair *pair,
+                    const struct level_gap *gap)
 {
     const struct contact contact = {
         .a = pair->a,
@@ -420,7 +419,7 @@ static void mark(struct resting *resting, struct response_context *context)
         bool bears = touches(resting, pair);
         keep_loads(resting, context->contacts, pair);
         if (bears && !pair->known && contact_table_begins(context, pair->pair + 1))
-            report(context, bodies, pair->gap);
+            resting_report(context, bodies, pair->gap);
         if ((bears || pair->known) && closing(resting, pair) < CONTACT_IMPACT_MPS)
             rest(resting, context->contacts, pair);
         if (bears)

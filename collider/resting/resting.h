@@ -107,6 +107,10 @@ void resting_free(struct resting *resting);
  * queue, and nothing swept yet. */
 void resting_solve(struct resting *resting, struct response_context *context);
 
+/* Reports a contact that begins with an overlap: no impact will do it. */
+void resting_report(struct response_context *context, const struct pair *pair,
+                    const struct level_gap *gap);
+
 /* Returns a row that the ground holds as a body of the solver, with the motion that it has so far
  * and the grip that the ground has left. */
 void resting_level_body(const struct response_context *context, uint32_t row,

@@ -14,6 +14,8 @@
 /* A flag: both bodies ended the frame where they began it, because one was kept from moving into
  * the other (collider/resting/held_rest.h). */
 #define PERSISTENT_CONTACT_HOLDS 2u
+/* A flag: they were so deep in each other that they part without impacts. */
+#define PERSISTENT_CONTACT_PARTS 4u
 
 #define PERSISTENT_CONTACT_IMPACTS_MAX UINT16_MAX
 
@@ -49,7 +51,7 @@ struct persistent_contact {
     uint32_t a_row, b_row; /* of these entities; b_row of a fixed object: SLOT_NONE */
     uint32_t begin_tick;   /* of simulated time: when it first bore a load */
     uint32_t pressed_tick; /* when it last bore a load */
-    uint16_t flags;        /* PERSISTENT_CONTACT_OVERLAPS, _HOLDS */
+    uint16_t flags;        /* PERSISTENT_CONTACT_OVERLAPS, _HOLDS, _PARTS */
     uint16_t impacts;      /* since it began, PERSISTENT_CONTACT_IMPACTS_MAX at most */
     float impulse_ns;      /* of all these impacts together */
     struct nearest_vertices nearest[PERSISTENT_CONTACT_NEAREST];
