@@ -4,6 +4,7 @@
 #include "world/entity/grounded.h"
 #include "world/entity/spool.h"
 #include "world/params.h"
+#include "world/pull_up.h"
 
 _Static_assert((int)jolon_ENTITY_FREE == (int)ENTITY_FREE &&
                    (int)jolon_ENTITY_WRECK == (int)ENTITY_WRECK,
@@ -43,6 +44,7 @@ jolon_Entity entity_sample_of(const struct world *world, const struct snapshot *
         .gear = (jolon_Gear)entity_gear(from->flags[row]),
         .spool = (float)spool_of(from, kind, row),
         .grounded = grounded_of(from, kind, row),
+        .pull_up = pull_up_of(world, from, row),
         .reload_s = ready > tick ? (float)((double)(ready - tick) * world_dt_s(world)) : 0.0f,
     };
 }

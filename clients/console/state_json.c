@@ -8,6 +8,7 @@
 #include "world/entity/spool.h"
 #include "world/enum_names.h"
 #include "world/params.h"
+#include "world/pull_up.h"
 #include "world/terrain/gridsquare.h"
 
 #include <math.h>
@@ -338,6 +339,7 @@ static void put_me(struct json_writer *json, const struct world_query *query, ui
     json_writer_key_number(json, "throttle", (double)e->throttle[row], 2);
     json_writer_key_number(json, "spool", spool_of(e, kind, row), 2);
     json_writer_key_bool(json, "grounded", grounded_of(e, kind, row));
+    json_writer_key_bool(json, "pull_up", pull_up_of(world, e, row));
     json_writer_key_whole(
         json, "target",
         entities_alive(e, e->target_slot[row], e->target_id[row]) ? e->target_id[row] : 0);

@@ -49,14 +49,14 @@ void status_panel_line(char line[STATUS_PANEL_LINE], const struct session *sessi
         " id=%u name=%s kind=%s force=%s state=%s damage=%s behaviour=%s x_m=%.2f z_m=%.2f "
         "speed_mps=%.3f heading_deg=%.3f pitch_deg=%.3f roll_deg=%.3f altitude_m=%.3f "
         "turret_deg=%.3f gun_deg=%.3f rounds=%u fuel_l=%.2f reload_s=%.3f throttle=%.3f gear=%s "
-        "target=%u spool=%.3f grounded=%d",
+        "target=%u spool=%.3f grounded=%d pull_up=%d",
         e->id, name_table_of(&mirror->names, e->id), world_mirror_kind_name(mirror, e->kind),
         force_name((enum force)e->force), entity_state_name((enum entity_state)e->state),
         damage_name((enum damage)e->damage), behaviour_name((enum behaviour)e->behaviour), e->x_m,
         e->z_m, speed_of(e), degrees(e->heading_rad), degrees(e->pitch_rad), degrees(e->roll_rad),
         e->y_m, degrees(e->turret_rad), degrees(e->gun_rad), e->rounds, (double)e->fuel_l,
         (double)e->reload_s, (double)e->throttle, gear_name((enum gearing)e->gear), session->target,
-        (double)e->spool, e->grounded);
+        (double)e->spool, e->grounded, e->pull_up);
 }
 
 void status_panel_head(char line[STATUS_PANEL_LINE], const struct session *session, uint64_t now_ns)
@@ -161,7 +161,8 @@ void status_panel_statistics(char row[STATUS_PANEL_ROWS][STATUS_PANEL_COLUMNS],
                    compass(heading), grounded);
     (void)snprintf(row[2], STATUS_PANEL_COLUMNS, "pitch     %+.1f  roll %+.1f",
                    degrees(e->pitch_rad), degrees(e->roll_rad));
-    (void)snprintf(row[3], STATUS_PANEL_COLUMNS, "altitude  %.1f m", e->y_m);
+    (void)snprintf(row[3], STATUS_PANEL_COLUMNS, "altitude  %.1f m%s", e->y_m,
+                   e->pull_up ? "    PULL UP" : "");
     (void)snprintf(row[4], STATUS_PANEL_COLUMNS, "throttle  %+5.2f     %s", (double)e->throttle,
                    gauge(bar, (double)e->throttle));
     (void)snprintf(row[5], STATUS_PANEL_COLUMNS, "steering  %+5.2f     %s", (double)c->steer,

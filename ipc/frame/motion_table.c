@@ -6,6 +6,7 @@
 #include "world/entity/grounded.h"
 #include "world/entity/spool.h"
 #include "world/params.h"
+#include "world/pull_up.h"
 #include "world/world.h"
 
 #include <stdlib.h>
@@ -30,8 +31,10 @@ void motion_table_clear(struct motion_table *table)
     table->used = 0;
 }
 
-static struct motion_marks marks_of(const struct entities *e, const struct kind *kind, uint32_t row)
+static struct motion_marks marks_of(const struct world *world, const struct entities *e,
+                                    uint32_t row)
 {
+    const struct kind *kind = &world->kinds[e->kind[row]];
     return (struct motion_marks){.driver = e->driver[row],
                                  .target = e->target_id[row],
                                  .rounds = e->rounds[row],
@@ -47,7 +50,8 @@ static struct motion_marks marks_of(const struct entities *e, const struct kind 
                                  .behaviour = e->behaviour[row],
                                  .damage = e->damage[row],
                                  .gear = (uint8_t)entity_gear(e->flags[row]),
-                                 .grounded = grounded_of(e, kind, row)};
+                                 .grounded = grounded_of(e, kind, row),
+                                 .pull_up = pull_up_of(world, e, row)};
 }
 
 static bool off(double a, double b, double most)
@@ -65,7 +69,7 @@ static bool marks_differ(const struct motion_marks *told, const struct motion_ma
            told->kind != now->kind || told->state != now->state || told->force != now->force ||
            told->behaviour != now->behaviour || told->damage != now->damage ||
            told->gear != now->gear || told->grounded != now->grounded ||
-           off((double)told->turret, (double)now->turret, angle) ||
+           told->pull_up != now->pull_up || off((double)told->turret, (double)now->turret, angle) ||
            off((double)told->gun, (double)now->gun, angle) ||
            off((double)told->fuel_l, (double)now->fuel_l, part * kind->fuel_l) ||
            off((double)told->throttle, (double)now->throttle, part) ||
@@ -122,7 +126,7 @@ static void update_row(struct motion_table *table, const struct world *world,
         return;
     }
     const struct kind *kind = &world->kinds[e->kind[row]];
-    struct motion_marks marks = marks_of(e, kind, row);
+    struct motion_marks marks = marks_of(world, e, row);
     double share = e->driver[row] != 0 ? 0.0 : 1.0; /* who drives sees everything */
     if (told->id == e->id[row] && !marks_differ(&told->marks, &marks, kind, share) &&
         !motion_differs(told, world, e, row, table->tick, share))

@@ -23,7 +23,7 @@ struct motion_marks {
     uint32_t target, rounds, reload_tick;
     float turret, gun, fuel_l, throttle, spool;
     uint16_t kind;
-    uint8_t state, force, behaviour, damage, gear, grounded;
+    uint8_t state, force, behaviour, damage, gear, grounded, pull_up;
 };
 
 struct motion_told {

@@ -32,6 +32,7 @@ cJSON *entity_json(const struct world_mirror *mirror, const jolon_Entity *entity
     json_single(object, "throttle", entity->throttle);
     json_single(object, "spool", entity->spool);
     json_bool(object, "grounded", entity->grounded);
+    json_bool(object, "pull_up", entity->pull_up);
     json_text(object, "gear", gear_name((enum gearing)entity->gear));
     json_bool(object, "driven", entity->driver != 0);
     return object;

@@ -112,7 +112,7 @@ export class Vehicle {
     this.enable(true);
     byId('v-take').disabled = me.state === 'wreck' || me.driver === 'another';
     setText(byId('v-name'), me.name || this.world.name(selected));
-    setText(byId('v-kind'), `${words(me.force)} ${words(me.kind)} ${selected}${me.state === 'wreck' ? ', a wreck' : me.grounded ? ', on the ground' : ''}`);
+    setText(byId('v-kind'), `${words(me.force)} ${words(me.kind)} ${selected}${me.state === 'wreck' ? ', a wreck' : me.grounded ? ', on the ground' : me.pull_up ? ': PULL UP' : ''}`);
     byId('v-driver').hidden = !me.driver;
     setText(byId('v-driver'), !me.driver ? '' : me.driver === 'you' ? 'yours' : `${this.world.players.get(selected) ?? 'another client'} drives it`);
     FIGURES.forEach(([, text, left], i) => {

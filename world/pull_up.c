@@ -1,0 +1,64 @@
+/* Asks the way ahead of a driven aircraft for the speed that it allows. */
+#include "world/pull_up.h"
+
+#include "world/entity/grounded.h"
+#include "world/entity/kind.h"
+#include "world/entity/mass_properties.h"
+#include "world/terrain/climb_ahead.h"
+
+#define REACT_S      2.0  /* of the driver */
+#define AHEAD_S      10.0 /* so far it looks ahead */
+#define AHEAD_M      40.0 /* and so far even when it is slow */
+#define GENTLE_MPS   3.7  /* a touch-down with this sink rate does no harm */
+#define SLOWEST_MPS  1.0
+#define HOVER_PULL   0.4  /* [g] of a helicopter */
+#define HOVER_BRAKE  3.4  /* [m/s2] */
+#define WING_BRAKE   0.1  /* an aeroplane does not stop */
+#define WING_SHARE   0.65 /* of the pull-up that its lift allows */
+#define WING_PULL    1.5  /* [g] of that at most */
+#define LEAST_PULL   0.05 /* [g] */
+#define TURN_SLOPE   0.1  /* of a bank that turns it */
+#define STEEPEST_RAD 1.4  /* a steeper bank counts as this one */
+
+/* Returns the acceleration [m/s2] by which it changes its climb. */
+static double pull_of(const struct kind *kind, double speed)
+{
+    if (kind_hovers(kind))
+        return HOVER_PULL * GRAVITY_MPS2;
+    double share = speed / maths_max(kind->min_speed_mps, SLOWEST_MPS);
+    double lift = maths_min(share * share, maths_max(kind->max_load, 1.0));
+    return GRAVITY_MPS2 * WING_SHARE * maths_clamp(lift - 1.0, LEAST_PULL, WING_PULL);
+}
+
+bool pull_up_of(const struct world *world, const struct entities *entities, uint32_t i)
+{
+    const struct kind *kind = &world->kinds[entities->kind[i]];
+    if (entities->behaviour[i] != BEHAVIOUR_DRIVEN || entities->state[i] != ENTITY_ACTIVE ||
+        kind->domain != DOMAIN_AIR || grounded_of(entities, kind, i))
+        return false;
+    double speed = sqrt(entities->vx[i] * entities->vx[i] + entities->vz[i] * entities->vz[i]);
+    double fast = maths_max(speed, SLOWEST_MPS), up = entities->vy[i], sine, cosine;
+    double roll = maths_clamp(entities->roll[i], -STEEPEST_RAD, STEEPEST_RAD);
+    maths_sincos(roll, &sine, &cosine);
+    double slope = sine / cosine;
+    const struct climb_ahead ahead = {
+        .at = entities_position(entities, i),
+        .up_mps = up > -GENTLE_MPS ? maths_max(up, 0.0) : up,
+        .speed_mps = fast,
+        .half_length_m = 0.5 * kind->length_m,
+        .climb_mps = kind->climb_rate_mps,
+        .pull_mps2 = pull_of(kind, speed),
+        .brake_mps2 = kind_hovers(kind) ? HOVER_BRAKE : WING_BRAKE,
+        .late_s = REACT_S,
+        .heading_rad = speed > SLOWEST_MPS ? maths_heading(entities->vx[i], entities->vz[i])
+                                           : entities->heading[i],
+        .off_rad = fabs(slope) < TURN_SLOPE ? 0.0
+                   : roll > 0.0             ? PI
+                                            : -PI,
+        .radius_m = fast * fast / (GRAVITY_MPS2 * maths_max(fabs(slope), TURN_SLOPE)),
+        .length_m = AHEAD_S * speed + AHEAD_M,
+        .clear_m = -kind->low_m,
+        .least_m = -kind->low_m,
+    };
+    return climb_ahead_need(&world->terrain, &ahead).speed_mps < fast;
+}
