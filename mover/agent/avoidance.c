@@ -43,9 +43,6 @@
 #define GIVEN_WAY_S    2.5   /* the other is expected to give way if they meet later */
 #define CROSSING       0.94  /* cosine of 20 degrees: courses that differ by less do not cross */
 #define ROUNDED_MPS    1e-4  /* more than the index's rounding of velocities */
-#define CLIMB_AHEAD_S  8.0   /* how far ahead aircraft look at the ground */
-#define CLIMB_PLACES   8     /* at so many places */
-#define CLIMB_SHARE    0.8   /* of its rate of climb that it relies on */
 
 /* The fan: angles off the desired heading, with their sines and cosines. Direction PRESENT is the
  * present heading. */
@@ -619,33 +616,11 @@ static double stopping_speed(const struct look *look, double free_m)
     return brake * (sqrt(late_s * late_s + 2.0 * free_m / brake) - late_s);
 }
 
-/* Returns the greatest speed [m/s] at which an aeroplane can climb over the ground ahead, along a
- * direction of the fan. It keeps half of its height over each place. */
-static double climbing_speed(const struct step_context *context, uint32_t i,
-                             const struct look *look, int k, double altitude_m)
-{
-    const struct entities *m = context->m;
-    double way = maths_max(look->desired_mps, look->present_mps) * CLIMB_AHEAD_S, most = INFINITY;
-    for (int n = 1; n <= CLIMB_PLACES; n++) {
-        double distance = way * n / CLIMB_PLACES;
-        double ground = kinematics_ground(context, m->x[i] + distance * look->x[k],
-                                          m->z[i] + distance * look->z[k]);
-        double climb = ground + 0.5 * altitude_m - m->y[i];
-        if (climb > 0.0)
-            most = maths_min(most, CLIMB_SHARE * look->kind->climb_rate_mps * distance / climb);
-    }
-    return most;
-}
-
-/* The greatest speed that the ground ahead allows: over it, or on it. An aeroplane turns slowly, so
- * that the ground along its present heading counts as well. Helicopters look at it by themselves
+/* The greatest speed that the ground ahead allows. Aircraft look at it by themselves
  * (flight/terrain_following.h). */
 static double ground_speed(const struct step_context *context, uint32_t i, const struct look *look,
                            const struct desired_motion *desired)
 {
-    if (look->kind->domain == DOMAIN_AIR && !kind_hovers(look->kind))
-        return maths_min(climbing_speed(context, i, look, 0, desired->altitude_m),
-                         climbing_speed(context, i, look, PRESENT, desired->altitude_m));
     if (look->kind->domain == DOMAIN_LAND && look->sign > 0.0)
         return driving_pace(context, i, desired->heading_rad);
     return INFINITY;

@@ -1,8 +1,13 @@
 /* Walks along the way and looks at the ground. */
 #include "world/terrain/climb_ahead.h"
 
-#define STEP_M     6.0  /* between the first places */
-#define STEP_SHARE 0.07 /* of their distance, between later ones */
+#include "world/terrain/square_bounds.h"
+
+#include <stddef.h>
+
+#define STEP_M     6.0  /* between the first places, at least */
+#define STEP_CLEAR 0.5  /* of the height that it wants, the same */
+#define STEP_SHARE 0.15 /* of their distance, between later ones */
 #define SOONEST_S  1.25 /* in which it comes to a height that it should have now */
 #define SLOW_MPS   1.0  /* a slower one is as late as with this speed */
 
@@ -41,10 +46,20 @@ static double late_speed(double brake_mps2, double metres, double seconds)
     return sqrt(2.0 * brake_mps2 * metres);
 }
 
-/* Limits the result by the ground at a place. */
-static void pass(const struct climb_ahead *ahead, double ground_m, double distance_m,
-                 struct climb_need *need)
+/* Returns the height below which it does not come if it pulls up now. */
+static double lowest(const struct climb_ahead *ahead)
 {
+    double sink = maths_max(-ahead->up_mps, 0.0);
+    return ahead->at.y - ahead->late_s * sink - sink * sink / (2.0 * ahead->pull_mps2);
+}
+
+/* Limits the result by the ground at a place. Mostly it is so far below the aircraft that it does
+ * not. */
+static inline void pass(const struct climb_ahead *ahead, double lowest_m, double ground_m,
+                        double distance_m, struct climb_need *need)
+{
+    if (ground_m + ahead->clear_m <= lowest_m)
+        return;
     double to_go = maths_max(distance_m - ahead->half_length_m, 0.0);
     double speed = maths_max(ahead->speed_mps, SLOW_MPS);
     double y = ahead->at.y + ahead->late_s * maths_min(ahead->up_mps, 0.0);
@@ -57,19 +72,36 @@ static void pass(const struct climb_ahead *ahead, double ground_m, double distan
     need->speed_mps = maths_min(need->speed_mps, late_speed(ahead->brake_mps2, braking, later));
 }
 
+/* Returns true if it stays over all that stands in the gridsquare of a place. */
+static bool is_far_below(const struct climb_ahead *ahead, double lowest_m, double x, double z)
+{
+    if (!ahead->tops)
+        return false;
+    uint16_t top = square_bounds_of(ahead->tops, gridsquare_of(&ahead->tops->squares, x, z));
+    double height = SQUARE_BOUNDS_LOWEST_M + SQUARE_BOUNDS_HEIGHT_M * top;
+    return height + ahead->clear_m <= lowest_m;
+}
+
 struct climb_need climb_ahead_need(const struct terrain *terrain, const struct climb_ahead *ahead)
 {
     struct climb_need need = {.climb_mps = -INFINITY, .speed_mps = INFINITY};
-    double east, south, sine, cosine, turned = 0.0, step, distance = 0.0;
+    const double least = maths_max(STEP_M, STEP_CLEAR * ahead->clear_m);
+    const double lowest_m = lowest(ahead);
+    double east, south, sine, cosine, turned = 0.0, step;
     maths_sincos(ahead->heading_rad, &sine, &cosine);
     double x = ahead->at.x - ahead->half_length_m * sine;
     double z = ahead->at.z + ahead->half_length_m * cosine;
-    pass(ahead, terrain_base_height(terrain, x, z), 0.0, &need);
-    for (x = ahead->at.x, z = ahead->at.z; distance <= ahead->length_m; distance += step) {
-        double ground = terrain_base_plane(terrain, x, z, &east, &south);
-        double across = fabs(east * cosine + south * sine);
-        pass(ahead, ground + ahead->half_width_m * across, distance, &need);
-        step = maths_max(STEP_M, STEP_SHARE * distance);
+    if (!is_far_below(ahead, lowest_m, x, z))
+        pass(ahead, lowest_m, terrain_base_height(terrain, x, z), 0.0, &need);
+    x = ahead->at.x;
+    z = ahead->at.z;
+    for (double distance = 0.0; distance <= ahead->length_m; distance += step) {
+        if (!is_far_below(ahead, lowest_m, x, z)) {
+            double ground = terrain_base_plane(terrain, x, z, &east, &south);
+            ground += ahead->half_width_m * fabs(east * cosine + south * sine);
+            pass(ahead, lowest_m, ground, distance, &need);
+        }
+        step = maths_max(least, STEP_SHARE * distance);
         if (turned < fabs(ahead->off_rad)) {
             turned = maths_min(turned + step / ahead->radius_m, fabs(ahead->off_rad));
             maths_sincos(ahead->heading_rad + (ahead->off_rad < 0.0 ? -turned : turned), &sine,

@@ -10,7 +10,10 @@
 
 #include "world/terrain/terrain.h"
 
+struct square_bounds;
+
 struct climb_ahead {
+    const struct square_bounds *tops; /* of all that stands in each gridsquare; NULL: not known */
     /* The aircraft. */
     struct vec3 at;                     /* [m, world] its position */
     double up_mps, speed_mps;           /* its climb, and its speed on the map */
@@ -22,12 +25,12 @@ struct climb_ahead {
     double heading_rad;       /* where it begins */
     double off_rad, radius_m; /* by how much it turns to the right, and how wide */
     double length_m;
-    /* The heights over the ground that it wants, and that it must have. */
+    /* The heights over the ground that it wants, and that it must have, which is no more. */
     double clear_m, least_m;
 };
 
 struct climb_need {
-    double climb_mps; /* the least rate that suffices at its present speed */
+    double climb_mps; /* the least rate that suffices at its present speed; -INFINITY: any */
     double speed_mps; /* the greatest speed that allows enough time; INFINITY: any */
 };
 

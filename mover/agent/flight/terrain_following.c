@@ -165,6 +165,7 @@ static struct climb_ahead look_ahead(const struct step_context *context, uint32_
     double body = maths_min(0.5 * HOVER_LEAN * kind->length_m - kind->low_m, desired->altitude_m);
     bool astern = desired->speed_mps < 0.0;
     return (struct climb_ahead){
+        .tops = &context->line_of_sight->skyline,
         .at = entities_position(m, i),
         .up_mps = m->vy[i],
         .speed_mps = speed,
@@ -210,6 +211,8 @@ void terrain_following_hover(const struct step_context *context, uint32_t i,
     double most = bank * GRAVITY_MPS2 * AIRFRAME_TURN_S / maths_max(ahead.speed_mps, STANDS_MPS);
     desired->heading_rad = m->heading[i] + maths_clamp(turn, -most, most);
     desired->speed_mps = maths_clamp(desired->speed_mps, -need.speed_mps, need.speed_mps);
+    if (need.climb_mps == -INFINITY) /* nothing is near */
+        return;
     double climb = maths_min(need.climb_mps, kind->climb_rate_mps);
     double height = m->y[i] - aircraft_ground(context, i) + climb / AIRCRAFT_FOLLOW_PS;
     desired->altitude_m = maths_max(desired->altitude_m, height);
