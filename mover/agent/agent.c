@@ -447,6 +447,17 @@ static void suppress(const struct step_context *context, uint32_t i,
         m->until_tick[i] = until;
 }
 
+/* Keeps an aircraft from others and from the ground. */
+static void fly_clear(const struct step_context *context, uint32_t i,
+                      struct desired_motion *desired)
+{
+    double highest_m = aircraft_separation_keep(context, i, desired);
+    if (is_aeroplane(&context->world->kinds[context->m->kind[i]]))
+        terrain_following_steer(context, i, highest_m, desired);
+    else
+        terrain_following_hover(context, i, desired);
+}
+
 static void think(const struct step_context *context, uint32_t i, const struct kind *kind,
                   struct desired_motion *desired)
 {
@@ -470,11 +481,7 @@ static void think(const struct step_context *context, uint32_t i, const struct k
         ship_course_keep(context, i, desired);
     avoidance_steer(context, i, desired);
     if (kind->domain == DOMAIN_AIR && !desired->driven)
-        aircraft_separation_keep(context, i, desired);
-    if (is_aeroplane(kind) && !desired->driven)
-        terrain_following_steer(context, i, desired);
-    else if (kind_hovers(kind) && !desired->driven)
-        terrain_following_hover(context, i, desired);
+        fly_clear(context, i, desired);
     if (disabled_drive(kind, m, i)) {
         desired->heading_rad = m->heading[i];
         desired->speed_mps = desired->turn = 0.0;

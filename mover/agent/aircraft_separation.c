@@ -166,13 +166,13 @@ static void keep_levels(struct clearance *clear)
     clear->high = floor(clear->high / HOVER_LEVEL_M + HOVER_ROUNDED) * HOVER_LEVEL_M;
 }
 
-void aircraft_separation_keep(const struct step_context *context, uint32_t i,
-                              struct desired_motion *desired)
+double aircraft_separation_keep(const struct step_context *context, uint32_t i,
+                                struct desired_motion *desired)
 {
     struct clearance clear = {-INFINITY, INFINITY};
     look_around(context, i, &clear);
     if (clear.low == -INFINITY && clear.high == INFINITY)
-        return;
+        return INFINITY;
     if (kinematics_parked(context->m, i))
         keep_levels(&clear);
     double usual = context->world->kinds[context->m->kind[i]].cruise_altitude_m;
@@ -182,4 +182,5 @@ void aircraft_separation_keep(const struct step_context *context, uint32_t i,
     height = maths_max(maths_min(height, clear.high - ground), clear.low - ground);
     double low = maths_clamp(context->m->y[i] - ground, LOWEST_SHARE * usual, LOW_SHARE * usual);
     desired->altitude_m = maths_max(height, maths_min(desired->altitude_m, low));
+    return clear.high < INFINITY ? desired->altitude_m : INFINITY;
 }

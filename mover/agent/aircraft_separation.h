@@ -12,9 +12,10 @@
 
 #include "mover/context/step_context.h"
 
-/* Changes the desired height of row i, an aircraft. */
-void aircraft_separation_keep(const struct step_context *context, uint32_t i,
-                              struct desired_motion *desired);
+/* Changes the desired height of row i, an aircraft. Returns the height [m] that it should not
+ * exceed because another is above it, INFINITY if none is. */
+double aircraft_separation_keep(const struct step_context *context, uint32_t i,
+                                struct desired_motion *desired);
 
 /* Returns the radius [m] in which one of a kind at this speed is kept from others. */
 double aircraft_separation_reach(const struct step_context *context, uint32_t kind,

@@ -3,9 +3,9 @@
 
 #include "mover/agent/perception.h"
 #include "mover/agent/driver_controls.h"
+#include "mover/agent/goal.h"
 #include "mover/motion/kinematics.h"
 #include "world/entity/script.h"
-#include "world/params.h"
 #include "world/state.h"
 #include "world/world.h"
 
@@ -319,11 +319,8 @@ static void order(const struct reading *r, const struct script_step *step)
     m->until_tick[r->i] = 0;
     m->goal_x[r->i] = m->x[r->i]; /* has arrived, so its agent chooses the next goal */
     m->goal_z[r->i] = m->z[r->i];
-    if (home) {
-        const struct force_base *base = &r->context->world->params->base[m->force[r->i]];
-        m->goal_x[r->i] = base->x;
-        m->goal_z[r->i] = base->z;
-    }
+    if (home) /* to its own place there */
+        goal_base(r->context, r->i);
     say(r, (enum behaviour)step->behaviour, REASON_SCRIPT);
 }
 

@@ -19,6 +19,7 @@
 #define PULL_SHARE  0.65 /* of the pull-up that its lift allows */
 #define LEAST_PULL  0.05 /* [g] */
 #define LEVEL_LOAD  1.5  /* [share of its lift] that it needs while it turns */
+#define LATER_SHARE 0.6  /* of the climb that it has: if it needs no more, it may climb later */
 
 /* An aeroplane before a decision. */
 struct climb_look {
@@ -106,7 +107,7 @@ static double find_way(const struct climb_look *look, double off_rad, double mos
 /* An agent comes down no steeper than straight to over the next height, so that it need not climb
  * hard again, and has time to keep from others. A script's jet comes down to the height that its
  * author gives as soon as it can. */
-void terrain_following_steer(const struct step_context *context, uint32_t i,
+void terrain_following_steer(const struct step_context *context, uint32_t i, double highest_m,
                              struct desired_motion *desired)
 {
     const struct entities *m = context->m;
@@ -123,6 +124,8 @@ void terrain_following_steer(const struct step_context *context, uint32_t i,
         return;
     climb = maths_min(climb, kind->climb_rate_mps);
     double height = m->y[i] - aircraft_ground(context, i) + climb / AIRCRAFT_FOLLOW_PS;
+    if (needed < LATER_SHARE * most)
+        height = maths_min(height, highest_m);
     desired->altitude_m = maths_max(desired->altitude_m, height);
 }
 

@@ -16,8 +16,10 @@
 
 #include "mover/context/step_context.h"
 
-/* Changes the desired heading and height of row i, an aeroplane of an agent or a script. */
-void terrain_following_steer(const struct step_context *context, uint32_t i,
+/* Changes the desired heading and height of row i, an aeroplane of an agent or a script. It stays
+ * below highest_m [m], a height like the desired one, while the ground leaves it time to climb
+ * later. */
+void terrain_following_steer(const struct step_context *context, uint32_t i, double highest_m,
                              struct desired_motion *desired);
 
 /* Changes the desired heading, height and speed of row i, a helicopter of an agent or a script. One

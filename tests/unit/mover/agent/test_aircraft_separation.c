@@ -190,6 +190,71 @@ static void test_those_at_their_base_do_not_collide(void **state)
         assert_int_equal(steps_rows(&f).damage[row], DAMAGE_NONE);
 }
 
+#define RING 12u
+
+static double least_goal_gap(uint32_t count)
+{
+    struct entities e = steps_rows(&f);
+    double least = INFINITY;
+    for (uint32_t a = 0; a < count; a++) {
+        for (uint32_t b = 0; b < a; b++)
+            least = maths_min(least, hypot(e.goal_x[a] - e.goal_x[b], e.goal_z[a] - e.goal_z[b]));
+    }
+    return least;
+}
+
+/* Helicopters that scripts send home come from all sides at the same time. Each has a place of its
+ * own from the beginning, and lands there. */
+static void test_those_ordered_home_at_once_do_not_meet(void **state)
+{
+    static char text[4000];
+    (void)state;
+    int at = snprintf(text, sizeof text,
+                      "world = { seed = 1; capacity = 64; hz = 20.0; };"
+                      "collision = { shape = \"model\"; };"
+                      "bases = ( { force = \"blue\"; at = [25000.0, 25000.0]; } );"
+                      "scripts = ( { name = \"home\";"
+                      " steps = ( { behaviour = \"withdraw\"; } ); } );"
+                      "vehicles = (");
+    for (uint32_t n = 0; n < RING; n++)
+        at += snprintf(text + at, sizeof text - (size_t)at,
+                       "%s{ kind = \"helicopter\"; force = \"blue\"; script = \"home\";"
+                       " at = [%.3f, %.3f]; }",
+                       n ? ", " : "", 25000.0 + 1500.0 * maths_sin(TWO_PI * n / RING),
+                       25000.0 - 1500.0 * maths_cos(TWO_PI * n / RING));
+    (void)snprintf(text + at, sizeof text - (size_t)at, ");");
+    fixture_open(&f, text);
+    fixture_run(&f, HZ);
+    assert_true(least_goal_gap(RING) > 30.0);
+    fixture_run(&f, 89 * HZ);
+    for (uint32_t row = 0; row < RING; row++) {
+        assert_int_equal(steps_rows(&f).damage[row], DAMAGE_NONE);
+        assert_true(steps_rows(&f).flags[row] & ENTITY_FLAG_LANDED);
+    }
+}
+
+/* The lower of two jets over rising ground climbs later, while the ground leaves it time: the other
+ * is above it. */
+static void test_a_jet_does_not_climb_into_another_for_the_ground(void **state)
+{
+    (void)state;
+    fixture_open(&f, "world = { seed = 1; capacity = 64; hz = 20.0; };");
+    steps_plane(&f, 0.08, 0.0);
+    uint32_t low = send("jet", (struct vec3){25000.0, 400.0, 25000.0}, HALF_PI);
+    uint32_t high = send("jet", (struct vec3){25000.0, 418.0, 25005.0}, HALF_PI);
+    double fastest = -INFINITY;
+    for (int frame = 0; frame < HZ; frame++) {
+        fixture_run(&f, 1);
+        fastest = maths_max(fastest, steps_velocity(&f, low).y);
+    }
+    print_message("the lower one climbs by up to %.1f m/s, the higher one by %.1f m/s\n", fastest,
+                  steps_velocity(&f, high).y);
+    assert_true(fastest < 5.0);
+    steps_rows(&f).state[high] = ENTITY_FREE;
+    fixture_run(&f, 2 * HZ);
+    assert_true(steps_velocity(&f, low).y > 8.0);
+}
+
 #define ROUGH_JETS 40u
 
 /* Valleys between plateaus 800 m higher, whose walls of 50 degrees are steeper than any jet climbs.
@@ -260,6 +325,9 @@ int main(void)
         cmocka_unit_test_teardown(test_one_that_may_roll_out_of_its_turn_is_kept_from, close_world),
         cmocka_unit_test_teardown(test_who_is_below_another_does_not_climb, close_world),
         cmocka_unit_test_teardown(test_those_at_their_base_do_not_collide, close_world),
+        cmocka_unit_test_teardown(test_those_ordered_home_at_once_do_not_meet, close_world),
+        cmocka_unit_test_teardown(test_a_jet_does_not_climb_into_another_for_the_ground,
+                                  close_world),
         cmocka_unit_test_teardown(test_idle_aircraft_fly_on_over_mountains, close_world),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
