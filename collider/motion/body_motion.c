@@ -29,21 +29,33 @@
 #define STRETCH_ARCS       3.0
 #define STRETCH_AROUND_MPS 0.1
 
+/* A body that turns or leans further in a frame, or leans so far, may point anywhere [rad]. */
+#define AXIS_TURN_RAD  0.5
+#define AXIS_PITCH_RAD 0.7
+
 #define BEGINS 6u /* columns of body_motion.before that are the collider's own */
 
-/* Leaning to the side brings what is high to the side, and leaning forwards does not. */
-static double beside_of(const struct world *world, const struct kind *kind)
+/* Leaning moves a point of a body about its axis, by no more than it is off the axis, and towards
+ * its middle. So only its place along the axis and how far it is off it matter: it is within the
+ * greatest such distance of a point of the axis that is nearer to the middle by the root of the
+ * difference of their squares. */
+static struct body_axis axis_of(const struct world *world, const struct kind *kind)
 {
+    struct body_axis axis = {.beside_m = INFINITY};
     double square = 0.0;
-    if (kind->domain != DOMAIN_LAND || kind->hull_count == 0 ||
-        world->params->collision.shape != SHAPE_MODEL)
-        return INFINITY;
+    if (kind->hull_count == 0 || world->params->collision.shape != SHAPE_MODEL)
+        return axis;
     const struct hull *hull = &world->hulls[kind->outer_hull];
+    const struct vec3 *at = world->hull_vertices + hull->first_vertex;
+    for (uint32_t v = 0; v < hull->vertex_count; v++)
+        square = maths_max(square, at[v].y * at[v].y + at[v].z * at[v].z);
     for (uint32_t v = 0; v < hull->vertex_count; v++) {
-        struct vec3 at = world->hull_vertices[hull->first_vertex + v];
-        square = maths_max(square, at.y * at.y + at.z * at.z);
+        double nearer = sqrt(square - (at[v].y * at[v].y + at[v].z * at[v].z));
+        axis.ahead_m = maths_max(axis.ahead_m, at[v].x - nearer);
+        axis.behind_m = maths_max(axis.behind_m, -at[v].x - nearer);
     }
-    return sqrt(square);
+    axis.beside_m = sqrt(square);
+    return axis;
 }
 
 int body_motion_init(struct body_motion *motion, const struct world *world)
@@ -65,7 +77,7 @@ int body_motion_init(struct body_motion *motion, const struct world *world)
         return -1;
     }
     for (uint32_t k = 0; k < world->counts.kinds && k < KIND_COUNT_MAX; k++)
-        motion->beside_m[k] = beside_of(world, &world->kinds[k]);
+        motion->axis[k] = axis_of(world, &world->kinds[k]);
     return 0;
 }
 
@@ -175,32 +187,105 @@ struct body_line body_motion_line(const struct body_motion *motion, uint32_t row
     return line_until(motion, row, motion->next->entities.cruise_tick[row]);
 }
 
-/* A body whose ends are within its reach and whose sides are `beside` from its axis is within
- * `beside` of an axis that is longer than the way by the root of the difference of their squares at
- * each end. Its axis is off the line by half of its turn. */
+/* Returns the line around a body that goes from one place to another while its axis points from its
+ * middle to a heading. off_m: how far its axis may be off that direction at its ends, and its
+ * middle off the straight way. It goes ahead or backwards. */
+static struct body_line line_around(const struct body_motion *motion, const struct body_axis *axis,
+                                    const struct body_line *way, double heading_rad, double off_m)
+{
+    struct body_line line = *way;
+    double ahead = axis->ahead_m, behind = axis->behind_m, x, z;
+    maths_sincos(heading_rad, &x, &z);
+    z = -z;
+    if (x * (way->to.x - way->from.x) + z * (way->to.z - way->from.z) < 0.0)
+        ahead = -axis->behind_m, behind = -axis->ahead_m;
+    line.from = (struct vec3){way->from.x - behind * x, way->from.y, way->from.z - behind * z};
+    line.to = (struct vec3){way->to.x + ahead * x, way->to.y, way->to.z + ahead * z};
+    line.around_m = axis->beside_m + pair_filter_slack(motion->world) + off_m;
+    return line;
+}
+
+static double longest_of(const struct body_axis *axis)
+{
+    return maths_max(axis->ahead_m, axis->behind_m);
+}
+
+/* The chord of an arc has the heading of its middle, and the axis is off it by half of its turn. */
 struct body_line body_motion_line_around(const struct body_motion *motion, uint32_t row,
                                          uint64_t tick, double reach_m)
 {
     const struct entities *n = &motion->next->entities;
-    struct body_line line = line_until(motion, row, tick);
-    double beside = motion->beside_m[n->kind[row]];
-    double x = line.to.x - line.from.x, z = line.to.z - line.from.z, way_m = sqrt(x * x + z * z);
-    if (!(beside < reach_m)) {
-        line.around_m += reach_m;
-        return line;
-    }
-    if (way_m > 0.0) {
-        x /= way_m, z /= way_m;
-    } else { /* it stands for what is left: no wider than while it moved */
-        maths_sincos(n->heading[row], &x, &z);
-        z = -z;
-    }
-    double longer = sqrt(reach_m * reach_m - beside * beside);
-    line.around_m += beside + pair_filter_slack(motion->world) +
-                     0.5 * fabs(n->cruise_rps[row]) * line.left_s * reach_m;
-    line.from = (struct vec3){line.from.x - longer * x, line.from.y, line.from.z - longer * z};
-    line.to = (struct vec3){line.to.x + longer * x, line.to.y, line.to.z + longer * z};
-    return line;
+    const struct body_axis *axis = &motion->axis[n->kind[row]];
+    struct body_line way = line_until(motion, row, tick);
+    double half_rad = 0.5 * n->cruise_rps[row] * way.left_s;
+    double heading = cruise_heading(n, row, tick, world_dt_s(motion->world)) - half_rad;
+    double off_m = way.around_m + fabs(half_rad) * longest_of(axis);
+    way.around_m += reach_m;
+    return axis->beside_m < reach_m ? line_around(motion, axis, &way, heading, off_m) : way;
+}
+
+/* Returns true if the turret and the gun of the row point ahead in this frame. */
+static bool points_ahead(const struct body_motion *motion, uint32_t row)
+{
+    const struct entities *w = body_motion_before(motion, row), *n = &motion->next->entities;
+    return w->turret[row] == 0.0f && w->gun[row] == 0.0f && n->turret[row] == 0.0f &&
+           n->gun[row] == 0.0f;
+}
+
+/* Returns how far at most the axis of a row that does not cruise is off its last heading in this
+ * frame [rad]; INFINITY: it may point anywhere. Between both ends it is off the nearer one by no
+ * more than half of its turn. */
+static double axis_turn(const struct body_motion *motion, uint32_t row,
+                        const struct cruise_pose *from)
+{
+    const struct entities *w = body_motion_before(motion, row), *n = &motion->next->entities;
+    const struct vec3 spin = {w->spin_x[row], w->spin_y[row], w->spin_z[row]};
+    const double dt_s = world_dt_s(motion->world);
+    double turned = fabs(maths_wrap_half(n->heading[row] - from->heading_rad));
+    double leant = fabs(n->pitch[row] - from->pitch_rad) +
+                   fabs(maths_wrap_half(n->roll[row] - from->roll_rad));
+    double steepest = maths_max(fabs(n->pitch[row]), fabs(from->pitch_rad));
+    if (turned + leant > AXIS_TURN_RAD || steepest > AXIS_PITCH_RAD ||
+        vec3_dot(spin, spin) * dt_s * dt_s > AXIS_TURN_RAD * AXIS_TURN_RAD)
+        return INFINITY;
+    return turned + 0.5 * (turned + leant);
+}
+
+/* Aircraft and rounds turn by free rotations. */
+struct body_line body_motion_frame_line(const struct body_motion *motion, uint32_t row,
+                                        double reach_m)
+{
+    const struct entities *n = &motion->next->entities;
+    const struct kind *kind = &motion->world->kinds[n->kind[row]];
+    const struct body_axis *axis = &motion->axis[n->kind[row]];
+    const struct vec3 to = entities_position(n, row);
+    struct cruise_pose from = {to, n->heading[row], n->pitch[row], n->roll[row]};
+    double sine, cosine;
+    if (body_motion_old(motion, row))
+        from = begins_at(motion, row);
+    struct body_line way = {.from = from.at, .to = to, .around_m = reach_m};
+    double turn_rad = axis_turn(motion, row, &from);
+    if ((kind->domain != DOMAIN_LAND && kind->domain != DOMAIN_SEA) || turn_rad == INFINITY ||
+        !points_ahead(motion, row))
+        return way;
+    maths_sincos(n->heading[row], &sine, &cosine);
+    double sideways_m = fabs(cosine * (to.x - from.at.x) + sine * (to.z - from.at.z));
+    double off_m = sideways_m + turn_rad * longest_of(axis);
+    return axis->beside_m + off_m < reach_m
+               ? line_around(motion, axis, &way, n->heading[row], off_m)
+               : way;
+}
+
+struct body_line body_motion_standing_line(const struct body_motion *motion, uint32_t row,
+                                           double reach_m)
+{
+    const struct entities *n = &motion->next->entities;
+    const struct body_axis *axis = &motion->axis[n->kind[row]];
+    const struct vec3 at = entities_position(n, row);
+    const struct body_line way = {.from = at, .to = at, .around_m = reach_m};
+    return axis->beside_m < reach_m && points_ahead(motion, row)
+               ? line_around(motion, axis, &way, n->heading[row], 0.0)
+               : way;
 }
 
 /* Returns how far above or below its line what is left of a stretch may be [m]. */

@@ -30,6 +30,13 @@ struct known_pose {
     uint64_t known; /* 1: it has been computed */
 };
 
+/* A body is near to a line along its heading: on the map all of it is within beside_m of what leads
+ * from behind_m behind its position to ahead_m before it, however it leans, while its gun points
+ * ahead. beside_m is INFINITY where bodies are spheres. */
+struct body_axis {
+    double behind_m, ahead_m, beside_m;
+};
+
 struct body_motion {
     const struct world *world;
     const struct state *committed;
@@ -54,9 +61,7 @@ struct body_motion {
      * compared, so that it saves work and changes no result. */
     struct known_pose *pose;
     double *begins; /* [6 * capacity] the columns of before that are not the committed ones */
-    /* How far a land vehicle of a kind reaches to its sides on the map, wherever it leans, while
-     * its gun points ahead [m]; INFINITY: as far as ahead. */
-    double beside_m[KIND_COUNT_MAX];
+    struct body_axis axis[KIND_COUNT_MAX]; /* of each kind */
 };
 
 /* Returns 0, or -1 with errno ENOMEM. */
@@ -89,11 +94,17 @@ struct body_line {
  * stretch. */
 struct body_line body_motion_line(const struct body_motion *motion, uint32_t row);
 
-/* Returns the line to where it is at a tick of its stretch. All of the body stays near to this one,
- * not just its centre: it is longer at both ends, and wider by what is beside the body instead of
- * by all of its reach reach_m. */
+/* Return the line that all of the row's body stays near to, not just its centre: it is longer at
+ * both ends by the body's axis, and as wide as what is beside that, instead of as all of its reach
+ * reach_m. Of a row that cruises in this frame until a tick of its stretch; of one that does not
+ * from the begin of the frame to its end; of one that stands where it is in next. What does not
+ * point along its line is within all of its reach of it. */
 struct body_line body_motion_line_around(const struct body_motion *motion, uint32_t row,
                                          uint64_t tick, double reach_m);
+struct body_line body_motion_frame_line(const struct body_motion *motion, uint32_t row,
+                                        double reach_m);
+struct body_line body_motion_standing_line(const struct body_motion *motion, uint32_t row,
+                                           double reach_m);
 
 /* Returns a path for the box around what is left of the stretch of a row that cruises in this
  * frame: it begins where the frame does, and its heights hold those of the ground between. */

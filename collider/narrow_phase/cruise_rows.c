@@ -51,7 +51,7 @@ static uint64_t end_of(const struct contact_input *input, uint32_t row)
 }
 
 /* The line that the row's body is within around_m of in this frame, or until its stretch ends, but
- * no longer than to the tick. */
+ * no longer than to the tick. Collisions will turn a body that has a wider box. */
 static struct body_line line_of(const struct contact_input *input, uint32_t row, uint64_t tick)
 {
     const struct body_motion *motion = input->motion;
@@ -60,6 +60,8 @@ static struct body_line line_of(const struct contact_input *input, uint32_t row,
         uint64_t end = end_of(input, row);
         return body_motion_line_around(motion, row, tick < end ? tick : end, reach_m);
     }
+    if (input->broad->wider[row] == BODY_BOX_EXACT)
+        return body_motion_frame_line(motion, row, reach_m);
     struct path path = body_motion_path(motion, row);
     return (struct body_line){.from = path.at, .to = path_at(&path, 1.0), .around_m = reach_m};
 }
@@ -287,22 +289,44 @@ void cruise_rows_query(const struct contact_input *input, const struct path_box 
     take_found(input, box, found, since);
 }
 
+/* Ends the stretches of the rows that are found, if what is left of them is near to this line. */
+static void stop_near(const struct contact_input *input, const struct path_box *box,
+                      const struct body_line *line, const struct pair_list *found)
+{
+    for (uint32_t i = 0; i < found->count; i++) {
+        const uint32_t row = found->pair[i].a;
+        if (!body_motion_cruises(input->motion, row) || !cruise_rows_box_meets(input, row, box))
+            continue;
+        const struct body_line its = line_of(input, row, UINT64_MAX);
+        if (!apart(line, &its))
+            cruise_rows_stop(input, row);
+    }
+}
+
+/* Ends the stretches that a row which stands there is in the way of. */
+static void meet_standing(const struct contact_input *input, uint32_t row, struct pair_list *found)
+{
+    const struct entities *e = input->detect.entities;
+    const double margin_m =
+        pair_filter_margin(input->detect.world, &input->detect.world->kinds[e->kind[row]]);
+    const struct path ends = {.at = entities_position(e, row)};
+    const struct path_box box = pair_filter_path_box(&ends, margin_m);
+    const struct body_line line = body_motion_standing_line(input->motion, row, margin_m);
+    found->count = 0;
+    cruise_index_query(&input->broad->cruise, &box, found);
+    stop_near(input, &box, &line, found);
+}
+
+/* A stretch that was made shorter was written, too, and is in nobody's way. */
 void cruise_rows_meet_written(const struct contact_input *input, struct pair_list *found)
 {
     const struct broad_phase *broad = input->broad;
-    const struct entities *e = input->detect.entities;
     for (uint32_t w = 0; w * 64 < input->detect.rows && broad->cruise.count > 0; w++) {
         for (uint64_t bits = ~broad->resting.same[w]; bits != 0; bits &= bits - 1) {
             uint32_t row = w * 64 + (uint32_t)__builtin_ctzll(bits);
-            if (row >= input->detect.rows || e->state[row] == ENTITY_FREE)
-                continue;
-            const struct path ends = {.at = entities_position(e, row)};
-            const struct kind *kind = &input->detect.world->kinds[e->kind[row]];
-            double margin = pair_filter_margin(input->detect.world, kind);
-            struct path_box box = pair_filter_path_box(&ends, margin);
-            found->count = 0;
-            cruise_index_query(&broad->cruise, &box, found);
-            take_found(input, &box, found, 0);
+            if (row < input->detect.rows && input->detect.entities->state[row] != ENTITY_FREE &&
+                !body_motion_cruises(input->motion, row))
+                meet_standing(input, row, found);
         }
     }
     found->count = 0;

@@ -34,9 +34,9 @@ void cruise_rows_query(const struct contact_input *input, const struct path_box 
                        struct pair_list *found);
 
 /* When all responses of the frame are done: ends the stretches that the rows which responses have
- * written now are in the way of. So at the end of a frame no body is in the box around what is left
- * of another one's stretch, and in the next frame only bodies that move can come there. found: for
- * rows, is emptied. */
+ * written now are in the way of. So at the end of a frame no body is both in the box around what is
+ * left of another one's stretch and near to its line, and in the next frame only bodies that move
+ * can come there. found: for rows, is emptied. */
 void cruise_rows_meet_written(const struct contact_input *input, struct pair_list *found);
 
 #endif

@@ -308,52 +308,173 @@ static double distance_from(struct vec3 point, const struct body_line *line)
     return hypot(x - share * dx, z - share * dz);
 }
 
-/* The corners of a vehicle are near its line, wherever it is on it. What is around the rest of the
- * line is within what was around it before, to the centimetre by which lines are wider. */
+/* Returns how far the corner of a row's body that is furthest off a line is off it. */
+static double corner_off(uint32_t row, struct vec3 at, struct quat turn,
+                         const struct body_line *line)
+{
+    const struct world *world = &f.view.world;
+    const struct hull *hull = &world->hulls[world->kinds[next->entities.kind[row]].outer_hull];
+    const struct mat3 matrix = rotation_matrix(turn);
+    double off_m = 0.0;
+    for (uint32_t v = 0; v < hull->vertex_count; v++) {
+        struct vec3 corner = rotation_apply(&matrix, world->hull_vertices[hull->first_vertex + v]);
+        off_m = maths_max(off_m, distance_from(vec3_add(at, corner), line));
+    }
+    return off_m;
+}
+
+static double reach_of(uint32_t row)
+{
+    return f.view.world.kinds[next->entities.kind[row]].reach_m + 0.01;
+}
+
+static void check_shrinks(uint32_t row, uint64_t *seed, uint32_t frames)
+{
+    struct body_line before = {0};
+    const double dt_s = world_dt_s(&f.view.world), reach_m = reach_of(row);
+    for (uint32_t left = frames; left > 0; left--) {
+        next->entities.cruise_tick[row] = (uint32_t)next->head->tick - 1 + left;
+        uint64_t end = next->entities.cruise_tick[row];
+        struct body_line line = body_motion_line_around(motion, row, end, reach_m);
+        struct body_line half = body_motion_line_around(motion, row, end - left / 2, reach_m);
+        struct vec3 at = cruise_position(&next->entities, row, end - left, dt_s);
+        double heading = cruise_heading(&next->entities, row, end - left, dt_s);
+        double lean = fixture_uniform(seed, -1.0, 1.0);
+        if (left % 10 == 0) {
+            assert_true(corner_off(row, at, rotation_of(heading, lean, -lean), &half) <=
+                        half.around_m);
+        }
+        if (left < frames) {
+            assert_true(distance_from(line.from, &before) + line.around_m <=
+                        before.around_m + 0.01);
+            assert_true(distance_from(line.to, &before) + line.around_m <= before.around_m + 0.01);
+        }
+        before = line;
+    }
+}
+
+/* The corners of a vehicle are near its line, wherever it is on it and however it leans, also if it
+ * goes backwards. What is around the rest of the line is within what was around it before, to the
+ * centimetre by which lines are wider. */
 static void test_what_is_around_a_vehicle_only_shrinks(void **state)
 {
+    const char *const kinds[] = {"tank", "truck", "ship", "jet"};
     uint64_t seed = fixture_seed(1992);
+    (void)state;
+    begin();
+    for (uint32_t k = 0; k < sizeof kinds / sizeof kinds[0]; k++) {
+        uint32_t row = fixture_put(
+            &f, (struct fixture_entity){.kind = kinds[k], .at = {25000.0, 100.0, 26000.0}});
+        begin();
+        const struct body_axis *axis = &motion->axis[next->entities.kind[row]];
+        assert_true(axis->beside_m < reach_of(row));
+        assert_true(maths_max(axis->ahead_m, axis->behind_m) + axis->beside_m <
+                    1.6 * reach_of(row));
+        for (int n = 0; n < 600; n++) {
+            const double long_s = n % 2 ? CRUISE_S : CRUISE_LONG_S, sign = n % 3 ? 1.0 : -1.0;
+            random_stretch(&seed, row, 0.6, 1.5);
+            next->entities.cruise_rps[row] *= CRUISE_S / long_s;
+            next->entities.cruise_mps2[row] *= sign * CRUISE_S / long_s;
+            next->entities.vx[row] *= sign;
+            next->entities.vz[row] *= sign;
+            check_shrinks(row, &seed, (uint32_t)(long_s / world_dt_s(&f.view.world) + 0.5));
+        }
+    }
+}
+
+struct stance {
+    struct vec3 at;
+    double heading, pitch, roll;
+};
+
+static void put_stance(const struct entities *e, uint32_t row, struct stance stance)
+{
+    entities_set_position(e, row, stance.at);
+    e->heading[row] = stance.heading;
+    e->pitch[row] = stance.pitch;
+    e->roll[row] = stance.roll;
+}
+
+/* Returns a pose that a vehicle may have a frame later: it drives ahead or backwards, slides, turns
+ * and leans. */
+static struct stance later_stance(uint64_t *seed, struct stance stance)
+{
+    double ahead_m = fixture_uniform(seed, -1.0, 2.0), aside_m = fixture_uniform(seed, -0.8, 0.8);
+    double sine = sin(stance.heading), cosine = cos(stance.heading);
+    stance.at.x += ahead_m * sine + aside_m * cosine;
+    stance.at.z += aside_m * sine - ahead_m * cosine;
+    stance.heading += fixture_uniform(seed, -0.2, 0.2);
+    stance.pitch += fixture_uniform(seed, -0.1, 0.1);
+    stance.roll += fixture_uniform(seed, -0.1, 0.1);
+    return stance;
+}
+
+/* The line of a vehicle that moves by one frame, and that of one that stands where it comes to, are
+ * near to all of its corners, and narrow. */
+static void test_a_vehicle_is_near_the_line_of_its_frame(void **state)
+{
+    uint64_t seed = fixture_seed(1993);
+    uint32_t narrow = 0;
     (void)state;
     begin();
     uint32_t row =
         fixture_put(&f, (struct fixture_entity){.kind = "tank", .at = {25000.0, 100.0, 26000.0}});
     begin();
-    const struct kind *kind = &f.view.world.kinds[next->entities.kind[row]];
-    const struct hull *hull = &f.view.world.hulls[kind->outer_hull];
-    const double reach_m = kind->reach_m + 0.01;
-    assert_true(motion->beside_m[next->entities.kind[row]] < 0.6 * reach_m);
+    const double reach_m = reach_of(row);
     for (int n = 0; n < 2000; n++) {
-        struct body_line before = {0};
-        const double long_s = n % 2 ? CRUISE_S : CRUISE_LONG_S;
-        const uint32_t frames = (uint32_t)(long_s / world_dt_s(&f.view.world) + 0.5);
-        random_stretch(&seed, row, 0.6, 1.5);
-        next->entities.cruise_rps[row] *= CRUISE_S / long_s;
-        next->entities.cruise_mps2[row] *= CRUISE_S / long_s;
-        for (uint32_t left = frames; left > 0; left--) {
-            next->entities.cruise_tick[row] = (uint32_t)next->head->tick - 1 + left;
-            uint64_t end = next->entities.cruise_tick[row];
-            struct body_line line = body_motion_line_around(motion, row, end, reach_m);
-            struct body_line half = body_motion_line_around(motion, row, end - left / 2, reach_m);
-            struct vec3 at =
-                cruise_position(&next->entities, row, end - left, world_dt_s(&f.view.world));
-            double heading =
-                cruise_heading(&next->entities, row, end - left, world_dt_s(&f.view.world));
-            double lean = fixture_uniform(&seed, -0.4, 0.4);
-            struct mat3 turn = rotation_matrix(rotation_of(heading, lean, -lean));
-            for (uint32_t v = 0; v < hull->vertex_count && left % 10 == 0; v++) {
-                struct vec3 corner =
-                    rotation_apply(&turn, f.view.world.hull_vertices[hull->first_vertex + v]);
-                assert_true(distance_from(vec3_add(at, corner), &half) <= half.around_m);
-            }
-            if (left < frames) {
-                assert_true(distance_from(line.from, &before) + line.around_m <=
-                            before.around_m + 0.01);
-                assert_true(distance_from(line.to, &before) + line.around_m <=
-                            before.around_m + 0.01);
-            }
-            before = line;
+        const struct stance from = {{25000.0, 100.0, 26000.0},
+                                    fixture_uniform(&seed, 0.0, TWO_PI),
+                                    fixture_uniform(&seed, -0.5, 0.5),
+                                    fixture_uniform(&seed, -2.5, 2.5)};
+        const struct stance to = later_stance(&seed, from);
+        put_stance(&f.view.w[0].entities, row, from);
+        put_stance(&next->entities, row, to);
+        const struct body_line line = body_motion_frame_line(motion, row, reach_m);
+        const struct body_line stands = body_motion_standing_line(motion, row, reach_m);
+        const struct quat first = rotation_of(from.heading, from.pitch, from.roll);
+        const struct quat last = rotation_of(to.heading, to.pitch, to.roll);
+        for (double t = 0.0; t <= 1.0; t += 0.125) {
+            const struct vec3 at = vec3_add(from.at, vec3_scale(vec3_sub(to.at, from.at), t));
+            assert_true(corner_off(row, at, rotation_between(first, last, t), &line) <=
+                        line.around_m);
         }
+        assert_true(corner_off(row, to.at, last, &stands) <= stands.around_m);
+        assert_true(stands.around_m < 0.6 * reach_m);
+        narrow += line.around_m < 0.7 * reach_m;
     }
+    assert_in_range(narrow, 1000, 2000);
+}
+
+/* What may point anywhere is within all of its reach of its way. */
+static void test_what_turns_has_a_wide_line(void **state)
+{
+    const struct stance level = {{25000.0, 100.0, 26000.0}, 0.3, 0.0, 0.0};
+    struct stance turned = level, steep = level;
+    (void)state;
+    begin();
+    uint32_t row =
+        fixture_put(&f, (struct fixture_entity){.kind = "tank", .at = {25000.0, 100.0, 26000.0}});
+    begin();
+    const struct entities *before = &f.view.w[0].entities;
+    const double reach_m = reach_of(row);
+    turned.heading += 0.6;
+    steep.pitch = 0.8;
+    put_stance(before, row, level);
+    put_stance(&next->entities, row, level);
+    assert_true(body_motion_frame_line(motion, row, reach_m).around_m < reach_m);
+    put_stance(&next->entities, row, turned);
+    assert_true(body_motion_frame_line(motion, row, reach_m).around_m == reach_m);
+    put_stance(before, row, steep);
+    put_stance(&next->entities, row, steep);
+    assert_true(body_motion_frame_line(motion, row, reach_m).around_m == reach_m);
+    put_stance(before, row, level);
+    put_stance(&next->entities, row, level);
+    before->spin_y[row] = 40.0;
+    assert_true(body_motion_frame_line(motion, row, reach_m).around_m == reach_m);
+    before->spin_y[row] = 0.0;
+    next->entities.turret[row] = 0.1f;
+    assert_true(body_motion_frame_line(motion, row, reach_m).around_m == reach_m);
+    assert_true(body_motion_standing_line(motion, row, reach_m).around_m == reach_m);
 }
 
 /* A vehicle that stands for what is left of its stretch is as wide as one that creeps. */
@@ -394,6 +515,10 @@ int main(void)
         TEST(test_what_is_around_a_stretch_only_shrinks),
         cmocka_unit_test_prestate_setup_teardown(test_what_is_around_a_vehicle_only_shrinks,
                                                  open_models, fixture_teardown, &f),
+        cmocka_unit_test_prestate_setup_teardown(test_a_vehicle_is_near_the_line_of_its_frame,
+                                                 open_models, fixture_teardown, &f),
+        cmocka_unit_test_prestate_setup_teardown(test_what_turns_has_a_wide_line, open_models,
+                                                 fixture_teardown, &f),
         cmocka_unit_test_prestate_setup_teardown(test_a_line_without_length_is_no_wider,
                                                  open_models, fixture_teardown, &f),
         TEST(test_bodies_have_their_kinds_hulls_at_their_size),

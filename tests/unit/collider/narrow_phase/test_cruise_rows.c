@@ -17,16 +17,27 @@ static struct fixture f;
 static uint32_t tank, truck;
 static struct response_context context;
 
-static int open_world(void **state)
+static int open_with(const char *text)
 {
-    (void)state;
-    fixture_open(&f, "world = { cruise = true; };");
+    fixture_open(&f, text);
     tank = fixture_put(&f, (struct fixture_entity){.kind = "tank", .at = {25000.0, 0.0, 25000.0}});
     truck =
         fixture_put(&f, (struct fixture_entity){.kind = "truck", .at = {26000.0, 0.0, 25000.0}});
     fixture_run(&f, 1);
     steps_respond(&f, &context);
     return 0;
+}
+
+static int open_world(void **state)
+{
+    (void)state;
+    return open_with("world = { cruise = true; };");
+}
+
+static int open_models(void **state)
+{
+    (void)state;
+    return open_with("world = { cruise = true; }; collision = { shape = \"model\"; };");
 }
 
 static int close_world(void **state)
@@ -157,7 +168,93 @@ static void test_two_that_stay_are_no_pair(void **state)
     assert_int_equal(left_of(truck), WHOLE);
 }
 
-#define IN_WORLD(test) cmocka_unit_test_setup_teardown(test, open_world, close_world)
+/* Keeps the box of a row's stretch. */
+static void hold(uint32_t row)
+{
+    const struct path stretch = body_motion_stretch(context.motion, row);
+    const struct kind *kind = &f.view.world.kinds[context.next->entities.kind[row]];
+    const struct path_box box =
+        pair_filter_path_box(&stretch, pair_filter_margin(&f.view.world, kind));
+    cruise_index_add(&f.stepper.collider.broad.cruise, row, &box);
+}
+
+static void meet_written(void)
+{
+    struct pair_list found;
+    assert_int_equal(pair_list_init(&found, 16), 0);
+    cruise_rows_meet_written(&context.input, &found);
+    pair_list_free(&found);
+}
+
+/* A stretch that is made shorter has been written, and is not in its own way. */
+static void test_a_stretch_that_is_made_shorter_goes_on(void **state)
+{
+    (void)state;
+    put_across(4.0, 0.0, 0.0);
+    hold(tank);
+    hold(truck);
+    assert_false(take_pair());
+    const uint32_t left = left_of(truck);
+    assert_in_range(left, WHOLE / 4, WHOLE - 1);
+    meet_written();
+    assert_int_equal(left_of(truck), left);
+    assert_int_equal(left_of(tank), WHOLE);
+}
+
+/* The tank goes north for a second. The truck is so far east of the middle of that way, heads
+ * there, and comes there in this frame by driving ahead. */
+static void put_beside(double east_m, double heading_rad)
+{
+    const struct entities *before = &context.motion->committed->entities;
+    const struct entities *e = &context.next->entities;
+    const double way_m = 0.2;
+    make_cruise(tank, (struct vec3){25000.0, 0.0, 25000.0}, 0.0, 0.0, 0.0);
+    entities_set_position(e, truck, (struct vec3){25000.0 + east_m, 0.0, 25005.0});
+    e->heading[truck] = heading_rad;
+    entities_copy(before, e, truck, 1);
+    before->x[truck] -= way_m * sin(heading_rad);
+    before->z[truck] += way_m * cos(heading_rad);
+}
+
+/* What moves by a frame is as narrow as what cruises, but not when it heads for it, turns its body
+ * or will be turned by a collision. */
+static void test_what_drives_beside_a_stretch_leaves_it(void **state)
+{
+    uint8_t *wider = context.broad->wider;
+    (void)state;
+    put_beside(5.8, 0.0);
+    assert_false(take_pair());
+    assert_int_equal(left_of(tank), WHOLE);
+    put_beside(5.8, M_PI);
+    assert_false(take_pair());
+    assert_int_equal(left_of(tank), WHOLE);
+    put_beside(5.8, -0.5 * M_PI);
+    (void)take_pair();
+    assert_in_range(left_of(tank), 0, WHOLE - 1);
+    put_beside(5.8, 0.0);
+    wider[truck] = 1;
+    (void)take_pair();
+    wider[truck] = 0;
+    assert_in_range(left_of(tank), 0, WHOLE - 1);
+}
+
+/* What collisions have put beside a stretch leaves it, and what they have put into its way ends it.
+ */
+static void test_what_was_written_ends_what_it_is_in_the_way_of(void **state)
+{
+    (void)state;
+    put_beside(5.8, 0.0);
+    hold(tank);
+    table_note(&context.writer, truck, COLUMN_BIT(x));
+    meet_written();
+    assert_int_equal(left_of(tank), WHOLE);
+    context.next->entities.x[truck] -= 0.6;
+    meet_written();
+    assert_int_equal(left_of(tank), 0);
+}
+
+#define IN_WORLD(test)    cmocka_unit_test_setup_teardown(test, open_world, close_world)
+#define WITH_MODELS(test) cmocka_unit_test_setup_teardown(test, open_models, close_world)
 
 int main(void)
 {
@@ -167,6 +264,9 @@ int main(void)
         IN_WORLD(test_one_that_cannot_be_made_shorter_goes_on),
         IN_WORLD(test_two_that_are_near_both_end),
         IN_WORLD(test_two_that_stay_are_no_pair),
+        IN_WORLD(test_a_stretch_that_is_made_shorter_goes_on),
+        WITH_MODELS(test_what_drives_beside_a_stretch_leaves_it),
+        WITH_MODELS(test_what_was_written_ends_what_it_is_in_the_way_of),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
