@@ -557,6 +557,28 @@ static inline void find_hollows(const struct step_context *context, struct groun
     }
 }
 
+#define LIFTS_MPS 0.3 /* edges under a vehicle that follows the ground lift it no faster */
+
+/* Finds the lanes that a crater or a work lifts so fast that it would be a jump. */
+static void find_jolts(const struct step_context *context, struct ground_vehicle *batch)
+{
+    const struct entities *m = context->m;
+    const double most_m = LIFTS_MPS * time_of(context, batch);
+    for (int l = 0; l < batch->count; l++) {
+        const uint32_t i = batch->row[l];
+        struct crater_footing before = {.x = m->x[i],
+                                        .z = m->z[i],
+                                        .half_length = batch->pose.half_length.lane[l],
+                                        .half_width = batch->pose.half_width.lane[l]};
+        if (batch->rough.lane[l] || batch->pose.lift.lane[l] <= most_m)
+            continue;
+        maths_sincos(m->heading[i], &before.sine, &before.cosine);
+        if (batch->pose.lift.lane[l] - most_m >
+            terrain_lift(&context->world->terrain, context->craters, &before))
+            batch->rough.lane[l] = -1;
+    }
+}
+
 /* Finds the lanes whose ground is too rough for a body that follows it: it leans, crosses the edge
  * of a crater, runs into water, leaves the ground over a crest, or gets into that of a hollow. */
 static inline void find_rough(const struct step_context *context, struct ground_vehicle *batch,
@@ -573,8 +595,10 @@ static inline void find_rough(const struct step_context *context, struct ground_
                                 (SIMD_ABS(roll) > tilt) | (batch->pose.step.f64x4[h] > step) |
                                 (batch->pose.lift.f64x4[h] > lift) | (drop > fall);
     }
-    if (batch->frames == 1)
-        find_hollows(context, batch);
+    if (batch->frames > 1)
+        return;
+    find_hollows(context, batch);
+    find_jolts(context, batch);
 }
 
 /* Makes a row on rough ground a body on its springs, which goes on as before: an edge under it has

@@ -248,6 +248,20 @@ static bool is_near_water(const struct step_context *context, double x, double z
     return entry.water != 0;
 }
 
+/* Returns true if craters and works lift the row faster than by 0.3 m/s. */
+static bool jolts(const struct step_context *context, uint32_t i, const struct row_before *was)
+{
+    struct entities *m = context->m;
+    const double heading = m->heading[i];
+    double now = standing_height(context, i, m->x[i], m->z[i]) -
+                 kinematics_ground(context, m->x[i], m->z[i]);
+    m->heading[i] = was->heading;
+    double before =
+        standing_height(context, i, was->x, was->z) - kinematics_ground(context, was->x, was->z);
+    m->heading[i] = heading;
+    return now - before > 0.3 * context->dt_s;
+}
+
 static bool drive_one(const struct step_context *context, uint32_t i,
                       const struct desired_motion *desired)
 {
@@ -310,7 +324,8 @@ static bool drive_one(const struct step_context *context, uint32_t i,
     if (fabs(m->pitch[i]) > CHASSIS_TILT_RAD || fabs(m->roll[i]) > CHASSIS_TILT_RAD ||
         forward * (pitch - m->pitch[i]) > GRAVITY_MPS2 * context->dt_s ||
         crater_step(context, i) > CHASSIS_STEP_M ||
-        y - kinematics_ground(context, x, z) > CHASSIS_LIFT_M || wades || enters != 0) {
+        y - kinematics_ground(context, x, z) > CHASSIS_LIFT_M || wades || enters != 0 ||
+        jolts(context, i, &was)) {
         double climb = climb_of(m, i, pitch);
         chassis_disturb(context, i);
         m->vy[i] = climb;

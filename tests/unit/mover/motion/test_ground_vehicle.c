@@ -269,6 +269,35 @@ static void test_no_shell_turns_into_a_wall(void **state)
     assert_true(deepest < 0.02);
 }
 
+/* Agents come to a crater's rim. What lifts their corners must not throw them up within a frame:
+ * they take to their springs at once. They were lifted by 2 cm, with 1.1 m/s. */
+static void test_no_rim_lifts_it_with_a_jerk(void **state)
+{
+    static const char *const kinds[] = {"tank", "carrier", "jeep", "truck"};
+    (void)state;
+    for (int n = 0; n < 4; n++) {
+        const double x = 25000.0 + 60.0 * n;
+        double jerk = 0.0;
+        uint32_t sprung = 0, row = put(kinds[n], x, 25000.0, 0.0, 10.0);
+        struct state now = fixture_state(&f);
+        for (int buffer = 0; buffer < 2; buffer++)
+            f.view.w[buffer].head->crater_count = (uint32_t)n + 1;
+        now.craters[n] = (struct crater){x + 1.5, 24980.0, 2.5f, 0.8f, 1};
+        steps_rows(&f).behaviour[row] = BEHAVIOUR_PATROL;
+        steps_rows(&f).goal_x[row] = x;
+        steps_rows(&f).goal_z[row] = 24800.0;
+        for (int frame = 0; frame < 2 * (int)HZ && sprung == 0; frame++) {
+            double vy = steps_rows(&f).vy[row];
+            fixture_run(&f, 1);
+            jerk = maths_max(jerk, fabs(steps_rows(&f).vy[row] - vy));
+            sprung += (steps_rows(&f).flags[row] & ENTITY_FLAG_CHASSIS) != 0;
+        }
+        print_message("# figures: %s: %.2f m/s in a frame\n", kinds[n], jerk);
+        assert_int_equal(sprung, 1);
+        assert_true(jerk < 0.4);
+    }
+}
+
 /* --- borders -----------------------------------------------------------------------------------*/
 
 static void test_deep_water_stops_it(void **state)
@@ -739,6 +768,7 @@ int main(void)
         TEST(test_no_shell_gets_into_the_ground_of_a_hollow),
         TEST(test_no_stretch_leads_through_a_hollow),
         TEST(test_no_shell_turns_into_a_wall),
+        TEST(test_no_rim_lifts_it_with_a_jerk),
         TEST(test_deep_water_stops_it),
         TEST(test_water_stops_no_vehicle_within_a_frame),
         TEST(test_it_can_back_away_from_the_shore),
