@@ -5,6 +5,7 @@
 #include "mover/agent/goal.h"
 #include "mover/agent/think_schedule.h"
 #include "mover/context/cruise_start.h"
+#include "mover/motion/air/even_flight.h"
 #include "mover/motion/aircraft.h"
 #include "mover/motion/chassis.h"
 #include "mover/motion/constant_course.h"
@@ -172,6 +173,17 @@ static uint32_t stretch_aircraft(const struct step_context *context, struct batc
     return take_refused(batches, stretch->row, &stretch->refused, &stretch->count, refused);
 }
 
+/* Begins an even stretch of an aircraft. Returns false if that is refused. */
+static bool flies_evenly(const struct step_context *context, uint32_t i,
+                         const struct desired_motion *desired, uint32_t frames,
+                         struct batches *batches)
+{
+    if (!even_flight_begin(context, i, desired, frames))
+        return false;
+    batches->motion[i - batches->block->first] = MOTION_CRUISE;
+    return true;
+}
+
 /* Moves aircraft by a stretch, and those that it refuses by one frame; in a crowd by half of it,
  * and so on, first. Elsewhere who cannot fly evenly for half a second has to look out in each turn.
  */
@@ -185,7 +197,8 @@ static void move_air_stretch(const struct step_context *context, struct batches 
         aircraft_begin(stretch, stretch->frames / 2);
         for (uint32_t n = 0; n < count; n++) {
             agent_controls_motion(context, refused[n], &desired);
-            (void)aircraft_take(context, stretch, refused[n], &desired);
+            if (!flies_evenly(context, refused[n], &desired, stretch->frames, batches))
+                (void)aircraft_take(context, stretch, refused[n], &desired);
         }
         count = stretch_aircraft(context, batches, refused);
     }
@@ -278,10 +291,23 @@ static void begin_land_stretch(const struct step_context *context, uint32_t i, u
         move_stretch(context, batches);
 }
 
+/* Moves an aircraft by a stretch, or by one frame if that is refused. In a crowd an even stretch
+ * may be longer than one by the motion of a frame. */
 static void begin_air_stretch(const struct step_context *context, uint32_t i,
                               const struct desired_motion *desired, uint32_t frames,
                               struct batches *batches)
 {
+    const uint32_t most = context->cruise_short;
+    if (cruise_start_crowd(context)) {
+        frames = even_flight_frames(context, i, frames);
+        if (flies_evenly(context, i, desired, frames, batches))
+            return;
+        while (frames > most) {
+            frames = frames / 2 > most ? frames / 2 : most;
+            if (flies_evenly(context, i, desired, frames, batches))
+                return;
+        }
+    }
     if (batches->air_stretch.frames != frames) {
         if (batches->air_stretch.count > 0)
             move_air_stretch(context, batches);

@@ -127,14 +127,17 @@ static uint32_t decides_for(const struct step_context *context, uint32_t i)
                : 0;
 }
 
-/* Returns true if row i drives on land and does not come to its goal within so many frames. */
-static bool drives_far(const struct step_context *context, uint32_t i, uint32_t frames)
+/* Returns true if row i drives on land, or flies in a crowd, and does not come to its goal within
+ * so many frames. */
+static bool travels_far(const struct step_context *context, uint32_t i, uint32_t frames)
 {
     const struct entities *m = context->m;
     const struct kind *kind = &context->world->kinds[m->kind[i]];
     double dx = m->goal_x[i] - m->x[i], dz = m->goal_z[i] - m->z[i];
     double way_m = kind->max_speed_mps * context->dt_s * (double)frames + NEAR_GOAL_M;
-    return kind->domain == DOMAIN_LAND && dx * dx + dz * dz > way_m * way_m;
+    return (kind->domain == DOMAIN_LAND ||
+            (kind->domain == DOMAIN_AIR && cruise_start_crowd(context))) &&
+           dx * dx + dz * dz > way_m * way_m;
 }
 
 uint32_t cruise_start_frames(const struct step_context *context, uint32_t i)
@@ -145,8 +148,9 @@ uint32_t cruise_start_frames(const struct step_context *context, uint32_t i)
     if (frames == 0 || !is_under_way(context->m, i) || !is_undisturbed(context, i) ||
         !cruises(context, i))
         return 0;
-    return frames > context->cruise_short && !drives_far(context, i, frames) ? context->cruise_short
-                                                                             : frames;
+    return frames > context->cruise_short && !travels_far(context, i, frames)
+               ? context->cruise_short
+               : frames;
 }
 
 bool cruise_start_due(const struct step_context *context, uint32_t i, uint32_t period)

@@ -23,9 +23,9 @@
  * logarithm to base 2. */
 uint32_t cruise_start_group_bits(uint32_t capacity);
 
-/* Returns the frames of the longest stretch of a land vehicle in a world with frames of dt_s, whose
- * agents decide every think_frames: as long as DECISIONS of them, from CRUISE_S to CRUISE_LONG_S.
- */
+/* Returns the frames of the longest stretch of a land vehicle, or of an aircraft in a crowd, in a
+ * world with frames of dt_s, whose agents decide every think_frames: as long as DECISIONS of them,
+ * from CRUISE_S to CRUISE_LONG_S. */
 uint32_t cruise_start_longest(double dt_s, uint32_t think_frames);
 
 /* Returns true in a crowd, whose agents decide less often than stretches begin: a stretch delays no

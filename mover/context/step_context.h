@@ -42,8 +42,9 @@ struct step_context {
         look_frames;     /* [frame] from one of its looks to the next, a multiple of think_frames */
     uint32_t aim_frames; /* [frame] from one attempt to fire to the next */
     uint32_t cruise_frames; /* [frame] of the longest stretch; 1: no vehicle cruises */
-    uint32_t cruise_short; /* [frame] of a stretch of CRUISE_S, the longest in the air and at sea */
-    uint32_t cruise_phase; /* tick modulo cruise_frames */
+    uint32_t cruise_short;  /* [frame] of a stretch of CRUISE_S, the longest at sea, and in the air
+                               except in a crowd */
+    uint32_t cruise_phase;  /* tick modulo cruise_frames */
     uint32_t cruise_group_bits; /* 2^this many rows begin their stretches together */
     double dt_s;
     struct vec3 wind; /* [m/s] */

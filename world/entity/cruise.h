@@ -20,7 +20,8 @@
 #include <stdbool.h>
 
 /* A stretch lasts for so long [s], in whole frames. In a world in which agents decide seldom, those
- * of land vehicles last for up to CRUISE_LONG_S (mover/context/cruise_start.h). */
+ * of land vehicles, and in a crowd those of aircraft, last for up to CRUISE_LONG_S
+ * (mover/context/cruise_start.h). */
 #define CRUISE_S      0.5
 #define CRUISE_LONG_S 5.0
 
