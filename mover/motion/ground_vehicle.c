@@ -563,7 +563,7 @@ static inline void find_hollows(const struct step_context *context, struct groun
 static void find_jolts(const struct step_context *context, struct ground_vehicle *batch)
 {
     const struct entities *m = context->m;
-    const double most_m = LIFTS_MPS * time_of(context, batch);
+    const double most_m = LIFTS_MPS * context->dt_s;
     for (int l = 0; l < batch->count; l++) {
         const uint32_t i = batch->row[l];
         struct crater_footing before = {.x = m->x[i],

@@ -123,10 +123,11 @@ static bool turn_and_gain(struct even_flight *f, const struct desired_motion *de
 /* Returns the least change of climb [m/s2] with which it is so high over all ground ahead. */
 static double change_over(const struct even_flight *f, double height_m)
 {
-    const double last_s = f->time_s + AHEAD_S + 0.5 * PIECE_S;
+    const uint32_t looks = (uint32_t)((f->time_s + AHEAD_S) / PIECE_S + 0.5);
     double least = -INFINITY;
-    for (double t = PIECE_S; t < last_s; t += PIECE_S) {
-        const double in_s = maths_min(t, f->time_s), level_m = f->from.y + f->up_mps * t;
+    for (uint32_t n = 1; n <= looks; n++) {
+        const double t = PIECE_S * n, in_s = maths_min(t, f->time_s);
+        const double level_m = f->from.y + f->up_mps * t;
         const double ground = ground_at(f, place_at(f, t));
         least = maths_max(least, (ground + height_m - level_m) / (in_s * (t - 0.5 * in_s)));
     }
@@ -176,7 +177,7 @@ static bool climb(struct even_flight *f, uint32_t i, const struct desired_motion
 /* --- room --------------------------------------------------------------------------------------*/
 
 /* Returns the steepest slope of the ground in the squares of the box; INFINITY if one has none. */
-static double steepest(const struct even_flight *f, struct gridsquare_box box)
+static double slope_within(const struct even_flight *f, struct gridsquare_box box)
 {
     const struct square_bounds *slopes = f->context->slopes;
     uint16_t most = 0;
@@ -200,7 +201,8 @@ static bool is_over(const struct even_flight *f, struct vec3 a, struct vec3 b)
         gridsquare_box_of(&f->context->world->terrain.squares, maths_min(a.x, b.x) - bound_m,
                           maths_min(a.z, b.z) - bound_m, maths_max(a.x, b.x) + bound_m,
                           maths_max(a.z, b.z) + bound_m);
-    const double slope = steepest(f, box), sag_m = PIECE_S * PIECE_S * fabs(f->climb_mps2) / 8.0;
+    const double slope = slope_within(f, box),
+                 sag_m = PIECE_S * PIECE_S * fabs(f->climb_mps2) / 8.0;
     const double low_m = maths_min(a.y, b.y) - sag_m - OVER_M;
     const double way_m = slope * sqrt(dx * dx + dz * dz);
     if (low_m - bound_m * sqrt(1.0 + slope * slope) >
@@ -213,9 +215,8 @@ static bool is_over(const struct even_flight *f, struct vec3 a, struct vec3 b)
 static bool stays_over_ground(const struct even_flight *f)
 {
     struct vec3 before = f->from;
-    for (double t = 0.0; t < f->time_s;) {
-        t = maths_min(t + PIECE_S, f->time_s);
-        const struct vec3 at = place_at(f, t);
+    for (uint32_t n = 1; PIECE_S * (n - 1) < f->time_s; n++) {
+        const struct vec3 at = place_at(f, maths_min(PIECE_S * n, f->time_s));
         if (!is_over(f, before, at))
             return false;
         before = at;
@@ -320,7 +321,8 @@ static double free_of(const struct step_context *context, uint32_t i, uint32_t o
     const double spread = SPREAD * sqrt(nears.x * nears.x + nears.z * nears.z);
     if (fabs(off.y) > FAR_M)
         return most_s;
-    for (double t = 0.0; t < most_s; t += PIECE_S) {
+    for (uint32_t n = 0; PIECE_S * n < most_s; n++) {
+        const double t = PIECE_S * n;
         double x = off.x + nears.x * t, z = off.z + nears.z * t;
         double near_m = beside + spread * maths_max(t, PIECE_S);
         if (x * x + z * z < near_m * near_m)
