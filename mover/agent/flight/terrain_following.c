@@ -106,7 +106,7 @@ static double find_way(const struct climb_look *look, double off_rad, double mos
 
 /* An agent comes down no steeper than straight to over the next height, so that it need not climb
  * hard again, and has time to keep from others. A script's jet comes down to the height that its
- * author gives as soon as it can. */
+ * author gives as soon as it can, and is too low to climb later. */
 void terrain_following_steer(const struct step_context *context, uint32_t i, double highest_m,
                              struct desired_motion *desired)
 {
@@ -120,11 +120,12 @@ void terrain_following_steer(const struct step_context *context, uint32_t i, dou
         desired->heading_rad = m->heading[i] + find_way(&look, off, most, &needed);
         climb = kind->climb_rate_mps;
     }
-    if (m->behaviour[i] == BEHAVIOUR_SCRIPT && climb <= 0.0)
+    bool low = m->behaviour[i] == BEHAVIOUR_SCRIPT;
+    if (low && climb <= 0.0)
         return;
     climb = maths_min(climb, kind->climb_rate_mps);
     double height = m->y[i] - aircraft_ground(context, i) + climb / AIRCRAFT_FOLLOW_PS;
-    if (needed < LATER_SHARE * most)
+    if (!low && needed < LATER_SHARE * most)
         height = maths_min(height, highest_m);
     desired->altitude_m = maths_max(desired->altitude_m, height);
 }

@@ -16,9 +16,9 @@
 
 #include "mover/context/step_context.h"
 
-/* Changes the desired heading and height of row i, an aeroplane of an agent or a script. It stays
- * below highest_m [m], a height like the desired one, while the ground leaves it time to climb
- * later. */
+/* Changes the desired heading and height of row i, an aeroplane of an agent or a script. That of an
+ * agent stays below highest_m [m], a height like the desired one, while the ground leaves it time
+ * to climb later. */
 void terrain_following_steer(const struct step_context *context, uint32_t i, double highest_m,
                              struct desired_motion *desired);
 
