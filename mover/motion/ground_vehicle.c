@@ -621,8 +621,7 @@ static void leave_rails(const struct step_context *context, const struct ground_
     m->spin_y[i] = -maths_wrap_half(turned_rad) / context->dt_s;
 }
 
-/* --- rows
- * ---------------------------------------------------------------------------------------*/
+/* --- rows --------------------------------------------------------------------------------------*/
 
 static void write_rows(const struct step_context *context, const struct ground_vehicle *batch)
 {
