@@ -2,6 +2,7 @@
 #include "world/terrain/rest_pose.h"
 
 #include "tests/support/steps.h"
+#include "world/course_lift.h"
 #include "world/terrain/crater.h"
 
 #include <stdarg.h>
@@ -23,12 +24,12 @@ static double waves(double x, double z, const void *context)
     return FIXTURE_GROUND_M + 40.0 * sine + 0.05 * (x - 25000.0);
 }
 
-/* Returns the greatest difference of the row's pose from rest_pose_of() [m, rad]. */
+/* Returns the greatest difference of the row's pose, which holds its course, from
+ * course_lift_pose() [m, rad]. */
 static double difference(const struct entities *e, uint32_t row)
 {
-    struct rest_pose pose =
-        rest_pose_of(&f.view.world.terrain, &f.stepper.mover.craters,
-                     &f.view.world.kinds[e->kind[row]], e->x[row], e->z[row], e->heading[row]);
+    struct rest_pose pose = course_lift_pose(&f.view.world, &f.stepper.mover.craters, e->kind[row],
+                                             e->x[row], e->z[row], e->heading[row]);
     double y = fabs(pose.y_m - e->y[row]), pitch = fabs(pose.pitch_rad - e->pitch[row]);
     return maths_max(y, maths_max(pitch, fabs(pose.roll_rad - e->roll[row])));
 }
