@@ -29,14 +29,14 @@ wait $run
 check "the mover was restarted once" equal "$(json restarts <killed.json)" 1
 check "the run whose mover was killed ends with the same digest" equal "$(digest short)" "$(digest killed)"
 
-# The shots of the run with their shooters and targets: two at trucks, one at the road, two at the
-# tanks.
+# The first shots of the run with their shooters and targets: two at trucks, one at the road, two at
+# the tanks, which may fire back.
 check "tanks and helicopters fire the scripted shots" python3 - "$folder/one.events" <<'P'
 import json, sys
 shots = [(e["shooter"]["kind"], e["target"]["kind"]) for e in map(json.loads, open(sys.argv[1]))
          if e["type"] == "fire" and e["shooter"]["id"]]
 print(shots)
-sys.exit(shots != [("tank", "truck")] * 2 + [("tank", "none")] + [("helicopter", "tank")] * 2)
+sys.exit(shots[:5] != [("tank", "truck")] * 2 + [("tank", "none")] + [("helicopter", "tank")] * 2)
 P
 
 # Compares the arrivals of the convoy's leader with its file of waypoints, at 60 Hz.
