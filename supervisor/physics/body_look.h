@@ -38,6 +38,8 @@ struct motion_look {
     double height_m;             /* over the ground */
     double lowest_m;             /* of a wreck: its lowest corner over the ground there, or if it is
                                     high over all ground near: height_m */
+    double begun_m;              /* of a wreck: the highest that this has been since the vehicle
+                                    was destroyed, at most 0 */
     bool wreck;
     struct sprung_look springs; /* of a vehicle on its springs */
     bool sprung;                /* a vehicle on its springs, which need not be on the ground */

@@ -146,9 +146,9 @@ static double pushed_m(const struct body_look *body, double dt_s)
     return maths_max(0.0, way - speed * dt_s);
 }
 
-/* Measures a wreck's depth in the ground if it has grown. One that a vehicle had may stay. Where
- * the ground pushes out a wreck to the side, a corner that it leaves slantwise may get deeper below
- * the surface first. Wrecks sink in water. */
+/* Measures a wreck's depth in the ground if it has grown, beyond the least that it has had: one
+ * that a vehicle had may stay. Where the ground pushes out a wreck to the side, a corner that it
+ * leaves slantwise may get deeper below the surface first. Wrecks sink in water. */
 static void measure_sinking(struct measures *measures, const struct ground_look *ground,
                             const struct body_look *body)
 {
@@ -156,7 +156,16 @@ static void measure_sinking(struct measures *measures, const struct ground_look 
     bool sinks = body->now.lowest_m < body->was->lowest_m - slack &&
                  !surface_is_water(ground->surface, body->named.at.x, body->named.at.z);
     measure_take(measures, MEASURE_OF_WRECK_UNDERGROUND,
-                 sinks ? maths_max(0.0, -body->now.lowest_m) : 0.0, &body->named, NULL);
+                 sinks ? maths_max(0.0, body->now.begun_m - body->now.lowest_m) : 0.0, &body->named,
+                 NULL);
+}
+
+/* Notes the least depth that a wreck has had. */
+static void note_begun(struct body_look *body)
+{
+    double lowest = maths_min(0.0, body->now.lowest_m);
+    bool was = body->known && body->was->wreck;
+    body->now.begun_m = was ? maths_max(body->was->begun_m, lowest) : lowest;
 }
 
 /* Measures the deepest corner. A body that comes down touches the ground with it. */
@@ -172,8 +181,10 @@ static void measure_corners(struct measures *measures, const struct ground_look 
         at.y - bound > surface_part_most(part, bound, bound) + near)
         return;
     double depth = depth_of(ground->surface, ground->shape, part, body);
-    if (body->now.wreck)
+    if (body->now.wreck) {
         body->now.lowest_m = lowest_corner(ground, body);
+        note_begun(body);
+    }
     body->now.grounded =
         body->now.wreck ? body->now.lowest_m < near : kind->domain == DOMAIN_AIR && depth > -near;
     /* A vehicle is not measured in the frame in which it appears: a teleport may end on a cliff. */
@@ -244,6 +255,7 @@ void body_measures_ground(struct measures *measures, const struct ground_look *g
     if (body->still && !ground->fresh && body->now.wreck == body->was->wreck) {
         body->now.height_m = body->was->height_m;
         body->now.lowest_m = body->was->lowest_m;
+        body->now.begun_m = body->was->begun_m;
         body->now.grounded = body->was->grounded;
         body->now.springs = body->was->springs;
         if (body->now.sprung && !body->was->sprung)
