@@ -17,13 +17,13 @@
 #define LOOK_M     0.25 /* between the places at which it looks for a hollow */
 #define SLOWER     0.75 /* of its speed, at least, the engine keeps on each slope of the way */
 
-/* How a row stands at a share of the way back from the end of its stretch. */
-struct stand {
+/* Where and how a row is at a share of the way back from the end of its stretch. */
+struct place {
     struct vec3 at; /* y: of the ground */
     double heading, pitch, roll;
 };
 
-static struct stand stand_of(const struct step_context *context, const struct ground_vehicle *batch,
+static struct place place_of(const struct step_context *context, const struct ground_vehicle *batch,
                              int l, double share)
 {
     const struct ground_pose *pose = &batch->pose;
@@ -38,7 +38,7 @@ static struct stand stand_of(const struct step_context *context, const struct gr
     const struct vec3 at = cruise_end(end, heading, -turned, -arc_m);
     const struct rest_pose ground = rest_pose_of(&context->world->terrain, context->craters, kind,
                                                  at.x, at.z, heading - turned);
-    return (struct stand){
+    return (struct place){
         {at.x, ground.y_m, at.z}, heading - turned, ground.pitch_rad, ground.roll_rad};
 }
 
@@ -49,11 +49,11 @@ static bool is_in_hollow(const struct step_context *context, const struct ground
 {
     const struct terrain *terrain = &context->world->terrain;
     const struct kind *kind = &context->world->kinds[context->m->kind[batch->row[l]]];
-    const struct stand stand = stand_of(context, batch, l, share);
-    if (terrain_cache_bend(terrain, patch, stand.at.x, stand.at.z) <= batch->bend.lane[l])
+    const struct place place = place_of(context, batch, l, share);
+    if (terrain_cache_bend(terrain, patch, place.at.x, place.at.z) <= batch->bend.lane[l])
         return false;
-    const struct mat3 turn = rotation_matrix(rotation_of(stand.heading, stand.pitch, stand.roll));
-    return vehicle_shell_depth(terrain, NULL, kind, VEHICLE_SHELL_SIDES, stand.at, &turn) > 0.0;
+    const struct mat3 turn = rotation_matrix(rotation_of(place.heading, place.pitch, place.roll));
+    return vehicle_shell_depth(terrain, NULL, kind, VEHICLE_SHELL_SIDES, place.at, &turn) > 0.0;
 }
 
 /* Returns true if the ground bends so much somewhere on the way that a shell may get into it. The
@@ -130,12 +130,12 @@ static bool is_too_steep(const struct ground_vehicle *batch, int l, double pitch
 static bool is_uneven(const struct step_context *context, const struct ground_vehicle *batch, int l,
                       double share)
 {
-    const struct stand stand = stand_of(context, batch, l, share);
+    const struct place place = place_of(context, batch, l, share);
     const double end_y = batch->pose.y.lane[l];
     const double line_y = end_y + share * (context->m->y[batch->row[l]] - end_y);
-    return fabs(stand.pitch) > CHASSIS_TILT_RAD || fabs(stand.roll) > CHASSIS_TILT_RAD ||
-           fabs(stand.at.y - line_y) > LINE_OFF_M || is_too_steep(batch, l, stand.pitch) ||
-           cover_is_water(terrain_cover(&context->world->terrain, stand.at.x, stand.at.z));
+    return fabs(place.pitch) > CHASSIS_TILT_RAD || fabs(place.roll) > CHASSIS_TILT_RAD ||
+           fabs(place.at.y - line_y) > LINE_OFF_M || is_too_steep(batch, l, place.pitch) ||
+           cover_is_water(terrain_cover(&context->world->terrain, place.at.x, place.at.z));
 }
 
 /* Returns true if a row that has moved by a long stretch passes ground that a short one refuses, or

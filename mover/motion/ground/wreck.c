@@ -4,7 +4,7 @@
 #include "mover/motion/ground/ground_body.h"
 #include "mover/context/ground_strike.h"
 #include "mover/motion/kinematics.h"
-#include "mover/motion/sinking.h"
+#include "mover/motion/ground/sinking.h"
 #include "mover/motion/spin.h"
 #include "world/entity/wreck_drag.h"
 #include "world/state.h"

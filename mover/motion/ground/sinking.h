@@ -1,7 +1,7 @@
 /* Wrecks on water: hulls settle until their upper works stand out of it, aircraft and vehicles go
  * under. The water's bed is not part of the terrain. */
-#ifndef JOLON_MOVER_MOTION_SINKING_H
-#define JOLON_MOVER_MOTION_SINKING_H
+#ifndef JOLON_MOVER_MOTION_GROUND_SINKING_H
+#define JOLON_MOVER_MOTION_GROUND_SINKING_H
 
 #include "mover/context/step_context.h"
 

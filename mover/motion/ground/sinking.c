@@ -1,5 +1,5 @@
 /* Lowers wrecks on water. The velocity (0, -SINK_MPS, 0) says that a wreck sinks. */
-#include "mover/motion/sinking.h"
+#include "mover/motion/ground/sinking.h"
 
 #include "mover/motion/kinematics.h"
 #include "world/world.h"
