@@ -66,9 +66,9 @@ static bool bends(const struct step_context *context, const struct ground_vehicl
     const double x = batch->pose.x.lane[l], back_x = m->x[batch->row[l]] - x;
     const double z = batch->pose.z.lane[l], back_z = m->z[batch->row[l]] - z;
     const double way_m = sqrt(back_x * back_x + back_z * back_z);
-    const double looks = ceil(way_m / (0.5 * terrain->spacing_m));
+    const int looks = (int)ceil(way_m / (0.5 * terrain->spacing_m));
     struct terrain_cache_entry patch = {0};
-    for (double n = 1.0; n < looks && bend <= batch->bend.lane[l]; n += 1.0)
+    for (int n = 1; n < looks && bend <= batch->bend.lane[l]; n++)
         bend = terrain_cache_bend(terrain, &patch, x + back_x * n / looks, z + back_z * n / looks);
     return bend > batch->bend.lane[l];
 }
@@ -84,11 +84,11 @@ static bool passes_hollow(const struct step_context *context, const struct groun
     const double x = m->x[batch->row[l]] - batch->pose.x.lane[l];
     const double z = m->z[batch->row[l]] - batch->pose.z.lane[l];
     const double vx = batch->vx.lane[l], vz = batch->vz.lane[l];
-    const double looks = 1.0 + ceil(sqrt(x * x + z * z) / LOOK_M);
-    const double beyond = ceil(2.0 * context->dt_s * sqrt(vx * vx + vz * vz) / LOOK_M);
+    const int looks = 1 + (int)ceil(sqrt(x * x + z * z) / LOOK_M);
+    const int beyond = (int)ceil(2.0 * context->dt_s * sqrt(vx * vx + vz * vz) / LOOK_M);
     struct terrain_cache_entry patch = {0};
-    for (double n = -beyond; n < looks; n += 1.0) {
-        if (is_in_hollow(context, batch, l, n / looks, &patch))
+    for (int n = -beyond; n < looks; n++) {
+        if (is_in_hollow(context, batch, l, (double)n / looks, &patch))
             return true;
     }
     return false;

@@ -87,7 +87,7 @@ struct climb_need climb_ahead_need(const struct terrain *terrain, const struct c
     struct climb_need need = {.climb_mps = -INFINITY, .speed_mps = INFINITY};
     const double least = maths_max(STEP_M, STEP_CLEAR * ahead->clear_m);
     const double lowest_m = lowest(ahead);
-    double east, south, sine, cosine, turned = 0.0, step;
+    double east, south, sine, cosine, turned = 0.0, distance = 0.0;
     maths_sincos(ahead->heading_rad, &sine, &cosine);
     double x = ahead->at.x - ahead->half_length_m * sine;
     double z = ahead->at.z + ahead->half_length_m * cosine;
@@ -95,13 +95,13 @@ struct climb_need climb_ahead_need(const struct terrain *terrain, const struct c
         pass(ahead, lowest_m, terrain_base_height(terrain, x, z), 0.0, &need);
     x = ahead->at.x;
     z = ahead->at.z;
-    for (double distance = 0.0; distance <= ahead->length_m; distance += step) {
+    while (distance <= ahead->length_m) {
         if (!is_far_below(ahead, lowest_m, x, z)) {
             double ground = terrain_base_plane(terrain, x, z, &east, &south);
             ground += ahead->half_width_m * fabs(east * cosine + south * sine);
             pass(ahead, lowest_m, ground, distance, &need);
         }
-        step = maths_max(least, STEP_SHARE * distance);
+        const double step = maths_max(least, STEP_SHARE * distance);
         if (turned < fabs(ahead->off_rad)) {
             turned = maths_min(turned + step / ahead->radius_m, fabs(ahead->off_rad));
             maths_sincos(ahead->heading_rad + (ahead->off_rad < 0.0 ? -turned : turned), &sine,
@@ -109,6 +109,7 @@ struct climb_need climb_ahead_need(const struct terrain *terrain, const struct c
         }
         x += step * sine;
         z -= step * cosine;
+        distance += step;
     }
     return need;
 }
