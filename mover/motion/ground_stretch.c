@@ -17,29 +17,40 @@
 #define LOOK_M     0.25 /* between the places at which it looks for a hollow */
 #define SLOWER     0.75 /* of its speed, at least, the engine keeps on each slope of the way */
 
-/* Where and how a row is at a share of the way back from the end of its stretch. */
+/* A place on the way, and the heading there. */
 struct place {
-    struct vec3 at; /* y: of the ground */
-    double heading, pitch, roll;
+    double x, z, heading;
 };
 
+/* Returns the speed of the row along its heading at the end of its stretch. */
+static double forward_of(const struct ground_vehicle *batch, int l)
+{
+    const struct ground_pose *pose = &batch->pose;
+    return batch->vx.lane[l] * pose->sine.lane[l] - batch->vz.lane[l] * pose->cosine.lane[l];
+}
+
+/* Returns where the row is at a share of the way back from the end of its stretch. */
 static struct place place_of(const struct step_context *context, const struct ground_vehicle *batch,
                              int l, double share)
 {
     const struct ground_pose *pose = &batch->pose;
-    const struct kind *kind = &context->world->kinds[context->m->kind[batch->row[l]]];
     const struct vec3 end = {pose->x.lane[l], pose->y.lane[l], pose->z.lane[l]};
     const double turned = share * batch->turned.lane[l];
     const double way_s = share * ground_vehicle_time_s(context, batch);
     const double heading = batch->heading.lane[l];
-    const double forward =
-        batch->vx.lane[l] * pose->sine.lane[l] - batch->vz.lane[l] * pose->cosine.lane[l];
-    const double arc_m = (forward - 0.5 * batch->gain_mps2.lane[l] * way_s) * way_s;
+    const double arc_m = (forward_of(batch, l) - 0.5 * batch->gain_mps2.lane[l] * way_s) * way_s;
     const struct vec3 at = cruise_end(end, heading, -turned, -arc_m);
-    const struct rest_pose ground = rest_pose_of(&context->world->terrain, context->craters, kind,
-                                                 at.x, at.z, heading - turned);
-    return (struct place){
-        {at.x, ground.y_m, at.z}, heading - turned, ground.pitch_rad, ground.roll_rad};
+    return (struct place){at.x, at.z, heading - turned};
+}
+
+/* Returns how the row stands at a place. */
+static struct rest_pose stands_at(const struct step_context *context,
+                                  const struct ground_vehicle *batch, int l,
+                                  const struct place *place)
+{
+    const struct kind *kind = &context->world->kinds[context->m->kind[batch->row[l]]];
+    return rest_pose_of(&context->world->terrain, context->craters, kind, place->x, place->z,
+                        place->heading);
 }
 
 /* Returns true if a corner of the row's shell is in the ground of a hollow at this share of the way
@@ -50,10 +61,13 @@ static bool is_in_hollow(const struct step_context *context, const struct ground
     const struct terrain *terrain = &context->world->terrain;
     const struct kind *kind = &context->world->kinds[context->m->kind[batch->row[l]]];
     const struct place place = place_of(context, batch, l, share);
-    if (terrain_cache_bend(terrain, patch, place.at.x, place.at.z) <= batch->bend.lane[l])
+    if (terrain_cache_bend(terrain, patch, place.x, place.z) <= batch->bend.lane[l])
         return false;
-    const struct mat3 turn = rotation_matrix(rotation_of(place.heading, place.pitch, place.roll));
-    return vehicle_shell_depth(terrain, NULL, kind, VEHICLE_SHELL_SIDES, place.at, &turn) > 0.0;
+    const struct rest_pose pose = stands_at(context, batch, l, &place);
+    const struct vec3 at = {place.x, pose.y_m, place.z};
+    const struct mat3 turn =
+        rotation_matrix(rotation_of(place.heading, pose.pitch_rad, pose.roll_rad));
+    return vehicle_shell_depth(terrain, NULL, kind, VEHICLE_SHELL_SIDES, at, &turn) > 0.0;
 }
 
 /* Returns true if the ground bends so much somewhere on the way that a shell may get into it. The
@@ -114,9 +128,7 @@ static bool passes_marks(const struct step_context *context, const struct ground
 /* Returns true if the engine cannot keep the row's speed on ground with this pitch. */
 static bool is_too_steep(const struct ground_vehicle *batch, int l, double pitch)
 {
-    const struct ground_pose *pose = &batch->pose;
-    const double forward =
-        batch->vx.lane[l] * pose->sine.lane[l] - batch->vz.lane[l] * pose->cosine.lane[l];
+    const double forward = forward_of(batch, l);
     const double climb = forward < 0.0 ? -pitch : pitch;
     const double sine = climb * (1.0 - climb * climb / 6.0);
     const double back = GRAVITY_MPS2 * (sine + batch->rolling.lane[l]);
@@ -131,11 +143,12 @@ static bool is_uneven(const struct step_context *context, const struct ground_ve
                       double share)
 {
     const struct place place = place_of(context, batch, l, share);
+    const struct rest_pose pose = stands_at(context, batch, l, &place);
     const double end_y = batch->pose.y.lane[l];
     const double line_y = end_y + share * (context->m->y[batch->row[l]] - end_y);
-    return fabs(place.pitch) > CHASSIS_TILT_RAD || fabs(place.roll) > CHASSIS_TILT_RAD ||
-           fabs(place.at.y - line_y) > LINE_OFF_M || is_too_steep(batch, l, place.pitch) ||
-           cover_is_water(terrain_cover(&context->world->terrain, place.at.x, place.at.z));
+    return fabs(pose.pitch_rad) > CHASSIS_TILT_RAD || fabs(pose.roll_rad) > CHASSIS_TILT_RAD ||
+           fabs(pose.y_m - line_y) > LINE_OFF_M || is_too_steep(batch, l, pose.pitch_rad) ||
+           cover_is_water(terrain_cover(&context->world->terrain, place.x, place.z));
 }
 
 /* Returns true if a row that has moved by a long stretch passes ground that a short one refuses, or
