@@ -155,6 +155,18 @@ uint32_t steps_put(struct fixture *fixture, const char *kind, struct vec3 at, en
     return row;
 }
 
+uint32_t steps_put_driving(struct fixture *fixture, const char *kind, double x, double z,
+                           double heading_deg, double speed_mps)
+{
+    double heading = heading_deg * RAD_PER_DEG;
+    return fixture_put(fixture,
+                       (struct fixture_entity){.kind = kind,
+                                               .at = {x, steps_ground_at(fixture, x, z), z},
+                                               .velocity = {speed_mps * maths_sin(heading), 0.0,
+                                                            -speed_mps * maths_cos(heading)},
+                                               .heading_rad = heading});
+}
+
 void steps_threaten(const struct fixture *fixture, uint32_t row, uint32_t by)
 {
     struct entities e = steps_rows(fixture);

@@ -41,6 +41,11 @@ double steps_ground_at(const struct fixture *fixture, double x, double z);
 uint32_t steps_put(struct fixture *fixture, const char *kind, struct vec3 at, enum force force,
                    enum behaviour behaviour);
 
+/* Puts a vehicle on the ground that drives where it heads, and holds its course. Returns its row.
+ */
+uint32_t steps_put_driving(struct fixture *fixture, const char *kind, double x, double z,
+                           double heading_deg, double speed_mps);
+
 /* The row's agent hears that `by` has fired at it. */
 void steps_threaten(const struct fixture *fixture, uint32_t row, uint32_t by);
 

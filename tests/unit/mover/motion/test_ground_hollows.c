@@ -3,10 +3,7 @@
 #include "tests/support/steps.h"
 #include "world/cruise_pose.h"
 #include "world/entity/cruise.h"
-#include "world/params.h"
 #include "world/state.h"
-#include "world/terrain/fixed.h"
-#include "world/terrain/gridsquare.h"
 #include "world/terrain/rest_pose.h"
 
 #include <stdarg.h>
@@ -29,12 +26,7 @@ static int open_world(void **state)
 
 static uint32_t put(const char *kind, double x, double z, double heading_deg, double speed_mps)
 {
-    double heading = heading_deg * RAD_PER_DEG;
-    return fixture_put(&f, (struct fixture_entity){.kind = kind,
-                                                   .at = {x, steps_ground_at(&f, x, z), z},
-                                                   .velocity = {speed_mps * maths_sin(heading), 0.0,
-                                                                -speed_mps * maths_cos(heading)},
-                                                   .heading_rad = heading});
+    return steps_put_driving(&f, kind, x, z, heading_deg, speed_mps);
 }
 
 static uint32_t put_tank(double x, double z, double heading_deg, double speed_mps)
