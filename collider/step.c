@@ -19,9 +19,16 @@
 #include "world/world.h"
 
 #include <errno.h>
+#include <stdlib.h>
 #include <string.h>
 
 #define BLOCKS_A_WORKER 2u /* blocks taken at a time */
+
+/* Returns a bit for each row that a world has room for, in whole blocks, or NULL. */
+static uint64_t *rows_bits(const struct world *world)
+{
+    return calloc(block_count(world->params->capacity), ROW_BLOCK_BYTES);
+}
 
 int collider_init(struct collider *collider, const struct world *world,
                   const struct crater *craters, struct thread_pool *workers)
@@ -31,6 +38,7 @@ int collider_init(struct collider *collider, const struct world *world,
     if (crater_index_init(&collider->craters, &world->terrain.squares, craters) != 0 ||
         square_bounds_init(&collider->heights, &world->terrain.squares, square_bounds_height,
                            &world->terrain) != 0 ||
+        !(collider->written[0] = rows_bits(world)) || !(collider->written[1] = rows_bits(world)) ||
         body_motion_init(&collider->motion, world) != 0 ||
         broad_phase_init(&collider->broad, world, workers) != 0 ||
         contact_queue_init(&collider->contacts, world, workers) != 0 ||
@@ -54,6 +62,8 @@ void collider_free(struct collider *collider)
 {
     crater_index_free(&collider->craters);
     square_bounds_free(&collider->heights);
+    free(collider->written[0]);
+    free(collider->written[1]);
     body_motion_free(&collider->motion);
     broad_phase_free(&collider->broad);
     contact_queue_free(&collider->contacts);
@@ -83,8 +93,10 @@ struct step {
     struct collider *collider;
     const struct state *committed;
     struct table moved, next;
+    const uint64_t *written; /* of the moved table */
     uint32_t used;
     uint32_t known; /* first blocks of next that still hold what this process left */
+    uint32_t sees;  /* the same, if this process has made the committed frame, too; else 0 */
 };
 
 _Static_assert(BROAD_PHASE_ROWS_TAKEN == CHECKSUM_ROWS, "rows are taken by whole blocks");
@@ -94,6 +106,16 @@ _Static_assert(BROAD_PHASE_ROWS_TAKEN == CHECKSUM_ROWS, "rows are taken by whole
 #define FEW_MOVE       (CHECKSUM_ROWS / 4)
 #define FEW_MOVE_ALONG (CHECKSUM_ROWS / 4 * 3)
 
+_Static_assert(ROW_LIST_MAX <= FEW_MOVE, "rows of a list never are all rows");
+
+/* Lists the rows of a block in which the moved table differs from the committed frame. Returns
+ * false if this is not known, or if they are many. */
+static bool list_written(const struct step *step, uint32_t block, struct row_list *list)
+{
+    return block < step->sees &&
+           row_list_gather(list, block, step->used, &step->written[block * ROW_BLOCK_WORDS]);
+}
+
 /* Finds the rows of a block whose pose is not that of the committed frame. */
 static void find_moving(const struct step *step, uint32_t block, struct moving_rows *moving)
 {
@@ -101,8 +123,13 @@ static void find_moving(const struct step *step, uint32_t block, struct moving_r
     uint32_t first = block * CHECKSUM_ROWS, old = step->committed->head->used;
     uint32_t both = old < step->used ? old : step->used;
     uint32_t few = step->collider->broad.cruises ? FEW_MOVE_ALONG : FEW_MOVE;
+    struct row_list list;
     *moving = (struct moving_rows){.all = first >= both};
-    if (!moving->all)
+    if (moving->all)
+        return;
+    if (list_written(step, block, &list))
+        table_differing_rows(step->moved, committed, block, POSE_COLUMNS, &list, moving->row);
+    else
         moving->all =
             !table_differing(step->moved, committed, block, both, POSE_COLUMNS, few, moving->row);
     for (uint32_t row = both; !moving->all && row < step->used && row < first + CHECKSUM_ROWS;
@@ -110,13 +137,38 @@ static void find_moving(const struct step *step, uint32_t block, struct moving_r
         moving->row[(row - first) / 64] |= (uint64_t)1 << (row - first) % 64;
 }
 
+/* Lists the rows of a block in which the next buffer, which holds the frame before the committed
+ * one, may differ from the moved table: those that the mover wrote in this frame and in the last
+ * one, and those that this process wrote in the last one. Returns false as above. */
+static bool list_stale(const struct step *step, uint32_t block, struct row_list *list)
+{
+    const struct collider *collider = step->collider;
+    const uint64_t *before = collider->written[step->committed->head->frame & 1];
+    const uint64_t *responses = collider->broad.resting.written;
+    uint64_t bits[ROW_BLOCK_WORDS];
+    for (uint32_t w = 0; w < ROW_BLOCK_WORDS; w++) {
+        uint32_t word = block * ROW_BLOCK_WORDS + w;
+        bits[w] = step->written[word] | before[word] | responses[word];
+    }
+    return block < step->sees && row_list_gather(list, block, step->used, bits);
+}
+
+/* Copies blocks of moved rows. Must come before the rows of this frame are noted as written. */
 static void take_blocks(void *context, uint32_t first, uint32_t end, uint32_t worker)
 {
     const struct step *step = context;
+    struct collider *collider = step->collider;
+    uint64_t *written = collider->written[(step->committed->head->frame + 1) & 1];
+    struct row_list list;
     (void)worker;
     for (uint32_t block = first; block < end; block++) {
-        table_take(step->next, step->moved, block, step->used, block < step->known);
-        step->collider->changed[block] = step->known > 0 ? 0 : COLUMNS_ALL;
+        uint32_t word = block * ROW_BLOCK_WORDS;
+        if (list_stale(step, block, &list))
+            table_take_rows(step->next, step->moved, block, &list);
+        else
+            table_take(step->next, step->moved, block, step->used, block < step->known);
+        memcpy(&written[word], &step->written[word], ROW_BLOCK_BYTES);
+        collider->changed[block] = step->known > 0 ? 0 : COLUMNS_ALL;
     }
 }
 
@@ -293,14 +345,17 @@ static uint64_t fixed_hash(struct collider *collider, const struct state *commit
 
 /* The checksum of the finished frame; columns that responses changed are hashed again. The hashes
  * of the lists are kept only up to the committed frame, since this frame may be computed again. */
-static uint64_t checksum(struct collider *collider, const struct state *committed,
-                         const struct state *next)
+static uint64_t checksum(const struct step *step, const struct state *next)
 {
+    struct collider *collider = step->collider;
+    const struct state *committed = step->committed;
+    const struct written written = {collider->changed, collider->broad.resting.written};
     uint32_t used = next->head->used;
     list_hashes_extend(&collider->lists, committed);
     struct list_hashes lists = collider->lists;
     list_hashes_extend(&lists, next);
-    table_hash(state_table(next), used, collider->changed, collider->workers);
+    table_hash_written(step->next, step->moved, used, step->known > 0 ? block_count(used) : 0,
+                       &written, collider->workers);
     return state_checksum_of(next, rows_hash(next->hashes, used),
                              fixed_hash(collider, committed, next), &lists);
 }
@@ -310,8 +365,8 @@ struct response_context collider_response_context(struct collider *collider, str
     const struct world *world = collider->world;
     const struct response_functions *functions =
         response_of((enum response_model)world->params->collision.response);
-    const struct table_writer writer = {&next->entities, collider->changed,
-                                        collider->broad.resting.same};
+    const struct table_writer writer = {&next->entities, collider->changed, NULL,
+                                        collider->broad.resting.written};
     return (struct response_context){
         .world = world,
         .functions = functions,
@@ -347,6 +402,7 @@ void collider_step(struct collider *collider, const struct state *committed,
                         .committed = committed,
                         .moved = moved_table(moved),
                         .next = state_table(next),
+                        .written = moved->written,
                         .used = moved->head->used,
                         .known = known_blocks(collider, moved, next)};
     uint64_t *left = &collider->left[moved->head->frame & 1];
@@ -354,7 +410,9 @@ void collider_step(struct collider *collider, const struct state *committed,
     bool same_damage =
         step.known > 0 && next->head->tally.fixed_damaged == committed->head->tally.fixed_damaged;
     /* Else rows have changed that this process has not seen. */
-    if (committed->head->checksum != collider->left[committed->head->frame & 1])
+    if (committed->head->checksum == collider->left[committed->head->frame & 1])
+        step.sees = step.known;
+    else
         broad_phase_forget(&collider->broad);
     uint32_t held = step.known > 0 ? next->head->used : next->entities.capacity;
     table_clear_unused(&next->entities, step.used, held);
@@ -383,5 +441,5 @@ void collider_step(struct collider *collider, const struct state *committed,
     }
     next->head->event_end = context.events.first + context.events.count;
     next->head->event_digest = event_writer_digest(&context.events, committed->head->event_digest);
-    *left = next->head->checksum = checksum(collider, committed, next);
+    *left = next->head->checksum = checksum(&step, next);
 }

@@ -58,7 +58,7 @@ static uint64_t *block_of(const struct resting_rows *rows, uint32_t block)
 
 void resting_rows_wake_block(struct resting_rows *rows, uint32_t block)
 {
-    memset(block_of(rows, block), 0, ROW_BLOCK_WORDS * sizeof *rows->resting);
+    memset(block_of(rows, block), 0, ROW_BLOCK_BYTES);
 }
 
 void resting_rows_wake_differing(struct resting_rows *rows, struct table moved,

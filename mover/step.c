@@ -22,7 +22,6 @@
 
 #define BLOCKS_A_WORKER 2u
 #define ROWS_A_WORKER   (BLOCKS_A_WORKER * CHECKSUM_ROWS)
-#define FEW_AWAKE       128u /* rows of a block whose changed columns are found by comparing */
 
 struct rows {
     const struct step_context *context;
@@ -30,8 +29,8 @@ struct rows {
     struct table committed, moved;
     const struct state_head *head; /* of moved */
     uint64_t *changed;             /* [CHECKSUM_BLOCKS] columns to hash again */
-    const struct block_hashes *blank;
-    bool known; /* is_own() */
+    uint64_t *written;             /* struct moved */
+    bool known;                    /* is_own() */
 };
 
 /* Columns that only commands, shots, collisions and hard landings change. */
@@ -69,47 +68,41 @@ static uint64_t still_blank(const struct rows *rows, const struct row_block *blo
     return table_zero(rows->moved, columns, row, count);
 }
 
-/* Moves the rows of the block that are awake, and finds out which rest from now on. Returns the
- * columns that have not changed (few: none). *harmed: set if harm_j has changed. */
-static uint64_t move_block(const struct rows *rows, const struct row_block *block, bool few,
-                           bool *harmed)
+/* Notes that the rows of the block that are awake are written, and lists all that are. Returns
+ * false if they are many, or if the committed table may not be that from which the moved one was
+ * made. */
+static bool list_written(const struct rows *rows, const struct row_block *block,
+                         struct row_list *list)
+{
+    uint64_t *written = rows->written + block->first / 64;
+    for (uint32_t w = 0; w < ROW_BLOCK_WORDS; w++)
+        written[w] |= block->awake[w];
+    return rows->known &&
+           row_list_gather(list, block->first / CHECKSUM_ROWS, rows->head->used, written);
+}
+
+/* Moves the rows of the block that are awake, finds out which rest from now on, and hashes the
+ * block while it is in the processor's cache. */
+static void move_awake(const struct rows *rows, struct row_block *block)
 {
     const struct step_context *context = rows->context;
+    uint32_t number = block->first / CHECKSUM_ROWS;
+    uint64_t *changed = &rows->changed[number];
     uint8_t motion[CHECKSUM_ROWS];
-    *harmed = row_block_move(context, block, motion);
+    struct row_list list;
+    block->changed = *changed;
+    block->blank = ~*changed & table_blank(rows->committed, number);
+    bool harmed = row_block_move(context, block, motion);
     resting_rows_settle(&rows->mover->resting, context, block, motion, &rows->mover->neighbours,
                         &rows->mover->neighbour_lists);
-    return few ? 0 : still_blank(rows, block, motion);
-}
-
-/* Returns those of the columns of this set that are different from those of the committed block: of
- * a few rows. */
-static uint64_t differing(const struct rows *rows, const struct row_block *block, uint64_t columns)
-{
-    uint32_t row[FEW_AWAKE], count = 0;
-    for (uint32_t i = row_block_next(block, block->first); i < block->end;
-         i = row_block_next(block, i + 1))
-        row[count++] = i;
-    return table_changed(rows->moved, rows->committed, columns, row, count);
-}
-
-/* Moves the rows of a block that are awake, and hashes it while it is in the processor's cache. */
-static void move_awake(const struct rows *rows, struct row_block *block, uint32_t awake)
-{
-    uint32_t number = block->first / CHECKSUM_ROWS, used = rows->context->committed->head->used;
-    uint64_t *changed = &rows->changed[number];
-    bool harmed;
-    block->changed = *changed;
-    block->blank = ~*changed & table_blank(rows->committed, number, used, rows->blank);
-    bool few = awake <= FEW_AWAKE && rows->known;
-    uint64_t same = move_block(rows, block, few, &harmed);
-    if (few)
-        *changed |= differing(rows, block, COLUMNS_ALL & ~*changed);
-    else
-        *changed |= COLUMNS_ALL & ~STILL_COLUMNS & ~same;
-    if (harmed)
-        *changed |= COLUMN_BIT(harm_j);
-    table_hash_block(rows->moved, number, rows->head->used, *changed);
+    if (list_written(rows, block, &list))
+        table_hash_rows(rows->moved, rows->committed, number, COLUMNS_ALL, &list);
+    else {
+        *changed |= COLUMNS_ALL & ~STILL_COLUMNS & ~still_blank(rows, block, motion);
+        if (harmed)
+            *changed |= COLUMN_BIT(harm_j);
+        table_hash_block(rows->moved, number, rows->head->used, *changed);
+    }
     *changed = 0;
 }
 
@@ -126,12 +119,12 @@ static void move_rows(void *context, uint32_t first, uint32_t end, uint32_t work
         if (awake == 0)
             continue;
         atomic_fetch_add_explicit(&rows->mover->moved_rows, awake, memory_order_relaxed);
-        move_awake(rows, &block, awake);
+        move_awake(rows, &block);
     }
 }
 
-/* Copies the committed rows, and wakes those that differ from what this process left. The hashes of
- * a table whose content is unknown must all be computed. */
+/* Copies the committed rows, notes that none is written yet, and wakes those that differ from what
+ * this process left. The hashes of a table whose content is unknown must all be computed. */
 static void take_blocks(void *context, uint32_t first, uint32_t end, uint32_t worker)
 {
     const struct rows *rows = context;
@@ -144,6 +137,7 @@ static void take_blocks(void *context, uint32_t first, uint32_t end, uint32_t wo
         else
             resting_rows_wake_block(resting, block);
         table_take(rows->moved, rows->committed, block, used, rows->known);
+        memset(rows->written + block * ROW_BLOCK_WORDS, 0, ROW_BLOCK_BYTES);
         rows->changed[block] = rows->known ? 0 : COLUMNS_ALL;
     }
 }
@@ -155,9 +149,8 @@ static void pull_triggers(struct serial_context *context, const struct rows *row
     uint32_t used = context->step->committed->head->used;
     for (uint32_t first = 0; first < used; first += CHECKSUM_ROWS) {
         uint32_t block = first / CHECKSUM_ROWS;
-        bool blank =
-            used - first >= CHECKSUM_ROWS &&
-            rows->moved.hashes[block].column[COLUMN_trigger] == rows->blank->column[COLUMN_trigger];
+        bool blank = used - first >= CHECKSUM_ROWS &&
+                     rows->moved.hashes[block].column[COLUMN_trigger] == COLUMN_HASH_BLANK;
         if (!blank || rows->changed[block] & COLUMN_BIT(trigger))
             triggers_pull(context, first,
                           used - first < CHECKSUM_ROWS ? used : first + CHECKSUM_ROWS);
@@ -184,10 +177,13 @@ static bool is_own(const struct mover *mover, const struct state *committed,
 }
 
 /* Hashes the columns that the serial part changed, and returns the checksum of the table. */
-static uint64_t checksum(struct mover *mover, const struct moved *moved)
+static uint64_t checksum(const struct rows *rows, const struct moved *moved)
 {
+    struct mover *mover = rows->mover;
+    const struct written written = {mover->changed, moved->written};
     uint32_t used = moved->head->used;
-    table_hash(moved_table(moved), used, mover->changed, mover->workers);
+    uint32_t known = rows->known ? block_count(rows->context->committed->head->used) : 0;
+    table_hash_written(rows->moved, rows->committed, used, known, &written, mover->workers);
     memset(mover->changed, 0, sizeof mover->changed);
     return moved_checksum_of(moved, rows_hash(moved->hashes, used));
 }
@@ -253,7 +249,7 @@ void mover_step(struct mover *mover, const struct state *committed, struct moved
     struct serial_context serial_context = {
         .step = &context,
         .moved = moved,
-        .writer = {&moved->entities, mover->changed, mover->resting.resting},
+        .writer = {&moved->entities, mover->changed, mover->resting.resting, moved->written},
         .remotes = &mover->remotes};
     struct rows rows = {.context = &context,
                         .mover = mover,
@@ -261,7 +257,7 @@ void mover_step(struct mover *mover, const struct state *committed, struct moved
                         .moved = moved_table(moved),
                         .head = head,
                         .changed = mover->changed,
-                        .blank = &mover->blank,
+                        .written = moved->written,
                         .known = is_own(mover, committed, moved)};
     uint32_t used = committed->head->used;
     mover->moved_rows = 0;
@@ -270,6 +266,8 @@ void mover_step(struct mover *mover, const struct state *committed, struct moved
     if (!rows.known)
         table_clear_unused(&moved->entities, used, moved->entities.capacity);
     thread_pool_run(mover->workers, take_blocks, &rows, block_count(used), BLOCKS_A_WORKER);
+    memset(moved->written + block_count(used) * ROW_BLOCK_WORDS, 0,
+           (block_count(moved->entities.capacity) - block_count(used)) * ROW_BLOCK_BYTES);
     command_apply_all(&serial_context, sources);
     if (!head->paused || head->steps_left > 0) {
         if (head->paused)
@@ -288,5 +286,5 @@ void mover_step(struct mover *mover, const struct state *committed, struct moved
         mission_step(&serial_context);
         spawn_fall_back(&serial_context);
     }
-    mover->left = head->checksum = checksum(mover, moved);
+    mover->left = head->checksum = checksum(&rows, moved);
 }

@@ -42,7 +42,6 @@ struct mover {
     struct remote_index remotes;
     /* The moved table. */
     uint64_t changed[CHECKSUM_BLOCKS]; /* columns of each block that must be hashed again */
-    struct block_hashes blank;         /* of a block that is all zero */
     uint64_t left;                     /* checksum that the last step left; 0: none */
     _Atomic uint32_t moved_rows;       /* rows that the last step has moved */
     uint32_t

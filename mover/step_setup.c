@@ -25,7 +25,6 @@ int mover_init(struct mover *mover, const struct world *world, const struct crat
                struct thread_pool *workers)
 {
     *mover = (struct mover){.world = world, .workers = workers};
-    block_hashes_blank(&mover->blank);
     mover->terrain_entries =
         calloc(world->params->capacity + GROUND_POSE_AHEAD, sizeof *mover->terrain_entries);
     mover->terrain_entries_ahead =

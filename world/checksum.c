@@ -53,6 +53,24 @@ static struct cells cells_of(const struct entities *e, uint32_t block)
     }};
 }
 
+bool row_list_gather(struct row_list *list, uint32_t block, uint32_t used,
+                     const uint64_t bits[ROW_BLOCK_WORDS])
+{
+    const uint32_t first = block * CHECKSUM_ROWS;
+    list->count = 0;
+    for (uint32_t w = 0; w < ROW_BLOCK_WORDS; w++) {
+        for (uint64_t left = bits[w]; left != 0; left &= left - 1) {
+            uint32_t row = first + w * 64 + (uint32_t)__builtin_ctzll(left);
+            if (row >= used)
+                return true;
+            if (list->count == ROW_LIST_MAX)
+                return false;
+            list->row[list->count++] = row;
+        }
+    }
+    return true;
+}
+
 static void hash_columns(const struct entities *e, uint32_t block, uint32_t used, uint64_t columns,
                          struct block_hashes *hashes)
 {
@@ -60,7 +78,7 @@ static void hash_columns(const struct entities *e, uint32_t block, uint32_t used
     uint32_t rows = block_rows(block, used);
     for (uint32_t c = 0; c < ENTITY_COLUMN_COUNT; c++) {
         if (columns >> c & 1)
-            hashes->column[c] = XXH3_64bits(cells.column[c], (size_t)rows * cell_bytes[c]);
+            hashes->column[c] = column_hash(cells.column[c], (size_t)rows * cell_bytes[c]);
     }
 }
 
@@ -69,45 +87,78 @@ void table_hash_block(struct table table, uint32_t block, uint32_t used, uint64_
     hash_columns(table.entities, block, used, columns, &table.hashes[block]);
 }
 
+/* Returns by how much the hash of a column of a block changes with these rows. */
+static uint64_t change_of(const uint64_t *column, const uint64_t *before, uint32_t first,
+                          uint8_t bytes, const struct row_list *rows)
+{
+    const uint32_t rows_a_word = sizeof *column / bytes;
+    uint64_t change = 0;
+    uint32_t last = UINT32_MAX;
+    for (uint32_t n = 0; n < rows->count; n++) {
+        uint32_t place = (rows->row[n] - first) / rows_a_word;
+        if (place == last || column[place] == before[place])
+            continue;
+        const uint64_t key = column_hash_key(place);
+        change += column_hash_word(column[place], key) - column_hash_word(before[place], key);
+        last = place;
+    }
+    return change;
+}
+
+void table_hash_rows(struct table table, struct table before, uint32_t block, uint64_t columns,
+                     const struct row_list *rows)
+{
+    const struct cells cells = cells_of(table.entities, block);
+    const struct cells old = cells_of(before.entities, block);
+    for (uint64_t left = columns; left != 0; left &= left - 1) {
+        int c = __builtin_ctzll(left);
+        table.hashes[block].column[c] =
+            before.hashes[block].column[c] +
+            change_of(cells.column[c], old.column[c], block * CHECKSUM_ROWS, cell_bytes[c], rows);
+    }
+}
+
 struct hashing {
-    struct table table;
-    uint32_t used;
-    const uint64_t *columns;
+    struct table table, before;
+    uint32_t used, known;
+    const struct written *written; /* NULL: all columns, of all rows */
 };
 
 static void hash_blocks(void *context, uint32_t first, uint32_t end, uint32_t worker)
 {
     const struct hashing *job = context;
+    struct row_list rows;
     (void)worker;
     for (uint32_t block = first; block < end; block++) {
-        uint64_t columns = job->columns ? job->columns[block] : COLUMNS_ALL;
-        if (columns != 0)
+        uint64_t columns = job->written ? job->written->columns[block] : COLUMNS_ALL;
+        if (columns == 0)
+            continue;
+        if (block < job->known &&
+            row_list_gather(&rows, block, job->used, &job->written->rows[block * ROW_BLOCK_WORDS]))
+            table_hash_rows(job->table, job->before, block, columns, &rows);
+        else
             table_hash_block(job->table, block, job->used, columns);
     }
 }
 
-void table_hash(struct table table, uint32_t used, const uint64_t *columns,
-                struct thread_pool *workers)
+void table_hash(struct table table, uint32_t used, struct thread_pool *workers)
 {
-    struct hashing job = {table, used, columns};
+    struct hashing job = {.table = table, .used = used};
     thread_pool_run(workers, hash_blocks, &job, block_count(used), BLOCKS_A_WORKER);
 }
 
-void block_hashes_blank(struct block_hashes *blank)
+void table_hash_written(struct table table, struct table before, uint32_t used, uint32_t known,
+                        const struct written *written, struct thread_pool *workers)
 {
-    static const uint64_t zeros[CHECKSUM_ROWS];
-    for (uint32_t c = 0; c < ENTITY_COLUMN_COUNT; c++)
-        blank->column[c] = XXH3_64bits(zeros, (size_t)CHECKSUM_ROWS * cell_bytes[c]);
+    struct hashing job = {table, before, used, known, written};
+    thread_pool_run(workers, hash_blocks, &job, block_count(used), BLOCKS_A_WORKER);
 }
 
-uint64_t table_blank(struct table table, uint32_t block, uint32_t used,
-                     const struct block_hashes *blank)
+uint64_t table_blank(struct table table, uint32_t block)
 {
     uint64_t columns = 0;
-    if (block_rows(block, used) < CHECKSUM_ROWS)
-        return 0;
     for (uint32_t c = 0; c < ENTITY_COLUMN_COUNT; c++)
-        columns |= (uint64_t)(table.hashes[block].column[c] == blank->column[c]) << c;
+        columns |= (uint64_t)(table.hashes[block].column[c] == COLUMN_HASH_BLANK) << c;
     return columns;
 }
 
@@ -139,45 +190,6 @@ uint64_t table_zero(struct table table, uint64_t columns, const uint32_t *rows, 
     return columns;
 }
 
-#define ROWS_AT_ONCE 16u /* compared before looking whether one differed */
-
-/* Adds the bits that differ in the rows from n to end of one column of cells of this type. */
-#define ADD_DIFFERENCES(type)                                                                      \
-    for (; n < end; n++)                                                                           \
-    differ |= (uint64_t)(((const type *)a)[rows[n]] ^ ((const type *)b)[rows[n]])
-
-/* Returns true if one column differs in any of the rows. */
-static bool any_differs(const void *a, const void *b, uint8_t bytes, const uint32_t *rows,
-                        uint32_t count)
-{
-    uint64_t differ = 0;
-    for (uint32_t n = 0; n < count && differ == 0;) {
-        uint32_t end = n == 0 ? 1 : n + ROWS_AT_ONCE; /* many columns differ in the first row */
-        end = end < count ? end : count;
-        if (bytes == 8)
-            ADD_DIFFERENCES(uint64_t);
-        else if (bytes == 4)
-            ADD_DIFFERENCES(uint32_t);
-        else if (bytes == 2)
-            ADD_DIFFERENCES(uint16_t);
-        else
-            ADD_DIFFERENCES(uint8_t);
-    }
-    return differ != 0;
-}
-
-uint64_t table_changed(struct table a, struct table b, uint64_t columns, const uint32_t *rows,
-                       uint32_t count)
-{
-    const struct cells one = cells_of(a.entities, 0), other = cells_of(b.entities, 0);
-    for (uint64_t left = columns; left != 0; left &= left - 1) {
-        int c = __builtin_ctzll(left);
-        if (!any_differs(one.column[c], other.column[c], cell_bytes[c], rows, count))
-            columns &= ~((uint64_t)1 << c);
-    }
-    return columns;
-}
-
 void table_take(struct table to, struct table from, uint32_t block, uint32_t used, bool known)
 {
     struct block_hashes *has = &to.hashes[block];
@@ -190,6 +202,36 @@ void table_take(struct table to, struct table from, uint32_t block, uint32_t use
     for (uint32_t c = 0; c < ENTITY_COLUMN_COUNT; c++) {
         if (!known || has->column[c] != wants->column[c])
             memcpy(into.column[c], source.column[c], (size_t)rows * cell_bytes[c]);
+    }
+    *has = *wants;
+}
+
+#define TAKE_CELLS(type)                                                                           \
+    for (uint32_t n = 0; n < rows->count; n++)                                                     \
+    ((type *)to)[rows->row[n]] = ((const type *)from)[rows->row[n]]
+
+/* Copies the cells of these rows of one column. */
+static void take_cells(void *to, const void *from, uint8_t bytes, const struct row_list *rows)
+{
+    if (bytes == 8)
+        TAKE_CELLS(uint64_t);
+    else if (bytes == 4)
+        TAKE_CELLS(uint32_t);
+    else if (bytes == 2)
+        TAKE_CELLS(uint16_t);
+    else
+        TAKE_CELLS(uint8_t);
+}
+
+void table_take_rows(struct table to, struct table from, uint32_t block,
+                     const struct row_list *rows)
+{
+    struct block_hashes *has = &to.hashes[block];
+    const struct block_hashes *wants = &from.hashes[block];
+    const struct cells into = cells_of(to.entities, 0), source = cells_of(from.entities, 0);
+    for (uint32_t c = 0; c < ENTITY_COLUMN_COUNT; c++) {
+        if (has->column[c] != wants->column[c])
+            take_cells(into.column[c], source.column[c], cell_bytes[c], rows);
     }
     *has = *wants;
 }
@@ -236,6 +278,37 @@ bool table_differing(struct table a, struct table b, uint32_t block, uint32_t us
             return false;
     }
     return true;
+}
+
+#define NOTE_CELLS(type)                                                                           \
+    for (uint32_t n = 0; n < rows->count; n++) {                                                   \
+        uint32_t i = rows->row[n], k = i % CHECKSUM_ROWS;                                          \
+        bits[k / 64] |= (uint64_t)(((const type *)a)[i] != ((const type *)b)[i]) << k % 64;        \
+    }
+
+/* Sets the bits of those of these rows of one column that differ. */
+static void note_cells(const void *a, const void *b, uint8_t bytes, const struct row_list *rows,
+                       uint64_t *bits)
+{
+    if (bytes == 8)
+        NOTE_CELLS(uint64_t)
+    else if (bytes == 4)
+        NOTE_CELLS(uint32_t)
+    else if (bytes == 2)
+        NOTE_CELLS(uint16_t)
+    else
+        NOTE_CELLS(uint8_t)
+}
+
+void table_differing_rows(struct table a, struct table b, uint32_t block, uint64_t columns,
+                          const struct row_list *rows, uint64_t *bits)
+{
+    const struct cells one = cells_of(a.entities, 0), other = cells_of(b.entities, 0);
+    for (; columns != 0; columns &= columns - 1) {
+        int c = __builtin_ctzll(columns);
+        if (a.hashes[block].column[c] != b.hashes[block].column[c])
+            note_cells(one.column[c], other.column[c], cell_bytes[c], rows, bits);
+    }
 }
 
 /* Bits, not values: two zeros of different signs differ. */
@@ -324,7 +397,7 @@ uint64_t state_checksum(const struct state *state, uint32_t fixed_count)
 void state_seal(struct state *state, uint32_t fixed_count)
 {
     uint32_t used = state->head->used;
-    table_hash(state_table(state), used, NULL, NULL);
+    table_hash(state_table(state), used, NULL);
     state->head->checksum = checksum_with(state, rows_hash(state->hashes, used), fixed_count);
 }
 

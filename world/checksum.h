@@ -9,12 +9,16 @@
 #ifndef JOLON_WORLD_CHECKSUM_H
 #define JOLON_WORLD_CHECKSUM_H
 
+#include "world/column_hash.h"
 #include "world/entity/entity.h"
 #include "world/entity/table_write.h"
 #include "world/runtime/thread_pool.h"
 #include "world/state.h"
 
-/* XXH3-64 of each column of one block. */
+/* Rows of a block that are taken one by one; more cost as much as the whole block. */
+#define ROW_LIST_MAX 128u
+
+/* column_hash() of each column of one block. */
 struct block_hashes {
     uint64_t column[ENTITY_COLUMN_COUNT];
 };
@@ -24,6 +28,17 @@ uint32_t block_count(uint32_t rows);
 
 /* Bytes of a table's hashes, up to the next boundary of COLUMN_ALIGN. */
 size_t block_hashes_bytes(uint32_t capacity);
+
+/* A few rows of a block, in order. */
+struct row_list {
+    uint32_t count;
+    uint32_t row[ROW_LIST_MAX];
+};
+
+/* Lists the rows below `used` that these bits of a block name. Returns false if they are too many
+ * for a list: then it pays to go through all rows of the block. */
+bool row_list_gather(struct row_list *list, uint32_t block, uint32_t used,
+                     const uint64_t bits[ROW_BLOCK_WORDS]);
 
 /* --- a table: rows and the hashes beside them --------------------------------------------------*/
 
@@ -45,35 +60,50 @@ static inline struct table moved_table(const struct moved *moved)
 /* Hashes these columns of one block of the first used rows. */
 void table_hash_block(struct table table, uint32_t block, uint32_t used, uint64_t columns);
 
-/* Hashes these columns of each block (columns NULL: all columns). workers NULL: on this thread. */
-void table_hash(struct table table, uint32_t used, const uint64_t *columns,
-                struct thread_pool *workers);
+/* The same by what differs from another table, which has hashes: these rows, and no others. Rows
+ * beyond those in use are zero in both. */
+void table_hash_rows(struct table table, struct table before, uint32_t block, uint64_t columns,
+                     const struct row_list *rows);
 
-/* Hashes of a whole block that is all zero. */
-void block_hashes_blank(struct block_hashes *blank);
+/* The columns in which each block of a table was written, and a bit for each row that was. */
+struct written {
+    const uint64_t *columns;
+    const uint64_t *rows; /* of whole blocks */
+};
 
-/* The columns of a whole block that are all zero, by their hashes (of a short block: none). blank:
- * of block_hashes_blank(). Another column has that hash with a probability of 2^-64. */
-uint64_t table_blank(struct table table, uint32_t block, uint32_t used,
-                     const struct block_hashes *blank);
+/* Hashes the columns of each block that were written. The first `known` blocks were those of
+ * `before`; the others are hashed whole. workers NULL: on this thread. */
+void table_hash_written(struct table table, struct table before, uint32_t used, uint32_t known,
+                        const struct written *written, struct thread_pool *workers);
+
+/* Hashes all columns of each block. */
+void table_hash(struct table table, uint32_t used, struct thread_pool *workers);
+
+/* The columns of a block that are all zero, by their hashes. Another column has that hash with a
+ * probability of 2^-64. */
+uint64_t table_blank(struct table table, uint32_t block);
 
 /* The columns of this set that are zero in each of these rows. */
 uint64_t table_zero(struct table table, uint64_t columns, const uint32_t *rows, uint32_t count);
-
-/* The columns of this set in which the two tables differ, bit by bit, in any of these rows. */
-uint64_t table_changed(struct table a, struct table b, uint64_t columns, const uint32_t *rows,
-                       uint32_t count);
 
 /* Makes a block of `to` the same as that of `from`, rows and hashes. known: this process
  * wrote to's hashes, so they are those of its rows. Then only columns whose hashes differ are
  * copied. Two different columns have the same hash with a probability of 2^-64. */
 void table_take(struct table to, struct table from, uint32_t block, uint32_t used, bool known);
 
+/* The same as table_take with known, if the two blocks differ at most in these rows. */
+void table_take_rows(struct table to, struct table from, uint32_t block,
+                     const struct row_list *rows);
+
 /* Sets the bits of the rows of a block in which the two tables differ, in those of these columns
  * whose hashes differ. rows: CHECKSUM_ROWS bits, to which these are added. used: rows of both.
  * Stops after the column with which more than `most` bits are set, and returns false. */
 bool table_differing(struct table a, struct table b, uint32_t block, uint32_t used,
                      uint64_t columns, uint32_t most, uint64_t *rows);
+
+/* The same without a limit, if the two blocks differ at most in these rows. */
+void table_differing_rows(struct table a, struct table b, uint32_t block, uint64_t columns,
+                          const struct row_list *rows, uint64_t *bits);
 
 /* Returns the columns in which row i of the two differs, bit by bit. */
 uint64_t entities_differing(const struct entities *a, const struct entities *b, uint32_t i);

@@ -86,6 +86,9 @@ struct moved {
     struct entities entities;
     struct block_hashes *hashes; /* as in struct state */
     struct event *intents; /* [params.intents_per_frame]; sequence, frame, index not yet set */
+    /* A bit for each row, of whole blocks; in no checksum. A row without it is as in the committed
+     * frame from which the mover made the table, to the bit. */
+    uint64_t *written;
 };
 
 _Static_assert(RING_GATEWAY == COMMAND_RING_COUNT - 1, "its cursor is the last");

@@ -19,13 +19,11 @@ int resting_records_init(struct resting_records *resting, uint32_t rows)
     *resting = (struct resting_records){.words = words};
     resting->kept = calloc(words, sizeof *resting->kept);
     resting->moved = calloc(words, sizeof *resting->moved);
-    resting->same = calloc(words, sizeof *resting->same);
+    resting->written = calloc(words, sizeof *resting->written);
     resting->flies = calloc(words, sizeof *resting->flies);
     resting->awake = calloc(words, sizeof *resting->awake);
-    if (resting->same)
-        memset(resting->same, UINT8_MAX, words * sizeof *resting->same);
-    return resting->kept && resting->moved && resting->same && resting->flies && resting->awake &&
-                   sweep_worker_init(&resting->sweeper, rows, 1) == 0 &&
+    return resting->kept && resting->moved && resting->written && resting->flies &&
+                   resting->awake && sweep_worker_init(&resting->sweeper, rows, 1) == 0 &&
                    query_index_init(&resting->index, rows) == 0
                ? 0
                : -1;
@@ -37,7 +35,7 @@ void resting_records_free(struct resting_records *resting)
     query_index_free(&resting->index);
     free(resting->kept);
     free(resting->moved);
-    free(resting->same);
+    free(resting->written);
     free(resting->flies);
     free(resting->awake);
     *resting = (struct resting_records){0};
@@ -75,8 +73,8 @@ uint32_t resting_records_note(struct resting_records *resting, uint32_t block,
     uint32_t count = 0;
     for (uint32_t w = 0; w < RESTING_RECORDS_WORDS; w++) {
         uint32_t word = block * RESTING_RECORDS_WORDS + w;
-        uint64_t moves = moving->all ? UINT64_MAX : moving->row[w] | ~resting->same[word];
-        resting->same[word] = UINT64_MAX;
+        uint64_t moves = moving->all ? UINT64_MAX : moving->row[w] | resting->written[word];
+        resting->written[word] = 0;
         resting->awake[word] = moves;
         resting->kept[word] &= ~moves;
         resting->moved[word] |= moves | held[word];

@@ -38,7 +38,7 @@ struct resting_records {
     struct sweep_worker sweeper; /* used while the index is built */
     uint64_t *kept;              /* a bit for each row whose record in the index is right */
     uint64_t *moved;             /* and for each that has moved since the rows were looked at */
-    uint64_t *same;              /* and for each that no response has written since it was noted */
+    uint64_t *written;           /* and for each that a response has written since it was noted */
     uint64_t *flies;             /* of the rows that are kept, the aircraft */
     uint64_t *awake;  /* a bit for each that moves, or was written since the last frame */
     uint32_t words;   /* of each */

@@ -322,7 +322,7 @@ void cruise_rows_meet_written(const struct contact_input *input, struct pair_lis
 {
     const struct broad_phase *broad = input->broad;
     for (uint32_t w = 0; w * 64 < input->detect.rows && broad->cruise.count > 0; w++) {
-        for (uint64_t bits = ~broad->resting.same[w]; bits != 0; bits &= bits - 1) {
+        for (uint64_t bits = broad->resting.written[w]; bits != 0; bits &= bits - 1) {
             uint32_t row = w * 64 + (uint32_t)__builtin_ctzll(bits);
             if (row < input->detect.rows && input->detect.entities->state[row] != ENTITY_FREE &&
                 !body_motion_cruises(input->motion, row))

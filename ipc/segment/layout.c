@@ -96,6 +96,11 @@ size_t layout_contacts_offset(uint32_t capacity, uint32_t fixed)
     return (bytes + COLUMN_ALIGN - 1) / COLUMN_ALIGN * COLUMN_ALIGN;
 }
 
+size_t layout_written_offset(uint32_t capacity, uint32_t intents)
+{
+    return layout_table_bytes(capacity) + intents * sizeof(struct event);
+}
+
 uint32_t layout_input_slots(uint32_t command_slots, uint32_t remotes_max)
 {
     uint32_t slots = command_slots;
@@ -182,7 +187,8 @@ int layout_compute(struct layout *layout, const struct segment_header *h)
     b[REGION_DENTS] = h->dent_slots * sizeof(struct dent);
     b[REGION_EVENTS] = h->event_slots * sizeof(struct event);
     b[REGION_MOVED_WORD] = sizeof(struct moved_word);
-    b[REGION_MOVED] = layout_table_bytes(h->capacity) + h->intents_per_frame * sizeof(struct event);
+    b[REGION_MOVED] = layout_written_offset(h->capacity, h->intents_per_frame) +
+                      block_count(h->capacity) * ROW_BLOCK_WORDS * sizeof(uint64_t);
     for (int i = 0; i < COMMAND_RING_COUNT; i++)
         b[REGION_COMMANDS + i] =
             sizeof(struct command_ring_words) + layout_ring_slots(h, i) * sizeof(struct command);

@@ -15,7 +15,7 @@
 #include <stdint.h>
 
 #define SEGMENT_MAGIC   0x314e4f4c4f4a0a1au /* "\x1a\nJOLON1": also no text file's first bytes */
-#define SEGMENT_VERSION 11u
+#define SEGMENT_VERSION 12u
 
 /* Every region begins at a multiple of this [byte]. A mapping begins on a page border, and pages
  * are 4, 16 or 64 KiB, depending on the kernel (aarch64 has all three). */
@@ -62,7 +62,7 @@ enum region {
     REGION_DENTS,      /* collider */
     REGION_EVENTS,     /* collider */
     REGION_MOVED_WORD, /* struct moved_word: mover */
-    REGION_MOVED,      /* head, columns, their hashes, intents: mover */
+    REGION_MOVED,      /* head, columns, their hashes, intents, bits of rows: mover */
     REGION_COMMANDS,   /* a struct command_ring_words and its slots, one for each ring */
     REGION_COMMANDS_LAST = REGION_COMMANDS + COMMAND_RING_COUNT - 1,
     REGION_DOORS, /* doorbell semaphores: every role */
@@ -109,6 +109,9 @@ size_t layout_table_bytes(uint32_t capacity);
 
 /* Returns the place of the contacts in a world buffer [byte], a multiple of COLUMN_ALIGN. */
 size_t layout_contacts_offset(uint32_t capacity, uint32_t fixed);
+
+/* Returns the place of the bits of the written rows in the moved table [byte]. */
+size_t layout_written_offset(uint32_t capacity, uint32_t intents);
 
 /* Computes layout from the header's counts and sizes. Returns 0, or -1 with errno EOVERFLOW when a
  * size exceeds its bound, as a forged header's may. */

@@ -96,6 +96,9 @@ void segment_bind(struct view *view)
     entities_bind(&view->m.entities, header->capacity, moved + LAYOUT_HEAD_BYTES);
     view->m.hashes = hashes_at(moved, header->capacity);
     view->m.intents = (struct event *)(void *)(moved + layout_table_bytes(header->capacity));
+    view->m.written =
+        (uint64_t *)(void *)(moved +
+                             layout_written_offset(header->capacity, header->intents_per_frame));
     for (int i = 0; i < COMMAND_RING_COUNT; i++)
         view->commands[i] = segment_part(view, REGION_COMMANDS + i);
     view->doorbells = segment_part(view, REGION_DOORS);

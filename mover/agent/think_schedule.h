@@ -20,7 +20,6 @@ enum motion {
     MOTION_CRUISE, /* on a stretch: nothing writes to its row */
 };
 
-#define ROW_BLOCK_WORDS (CHECKSUM_ROWS / 64u)
 
 /* A block of rows before it moves. */
 struct row_block {

@@ -44,11 +44,7 @@ void spawn_fall_back(struct serial_context *context)
     uint32_t roof = spawn_roof(head, m->capacity), used = head->used;
     while (used > roof && m->state[used - 1] == ENTITY_FREE)
         used--;
-    if (used == head->used)
-        return;
     head->used = used;
-    if (used > 0) /* the last block is shorter than before, so every hash of it is another */
-        table_row_changes(&context->writer, used - 1);
 }
 
 uint32_t spawn_entity(struct serial_context *context, uint16_t kind_index, uint8_t force)

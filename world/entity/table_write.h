@@ -11,10 +11,15 @@
 #define CHECKSUM_ROWS   1024u /* of a block; docs/decisions/019 has the cost of others */
 #define CHECKSUM_BLOCKS (CAPACITY_MAX / CHECKSUM_ROWS)
 
+/* Words of a bit for each row of a block. */
+#define ROW_BLOCK_WORDS (CHECKSUM_ROWS / 64u)
+#define ROW_BLOCK_BYTES (ROW_BLOCK_WORDS * sizeof(uint64_t))
+
 struct table_writer {
     const struct entities *entities;
     uint64_t *changed; /* [CHECKSUM_BLOCKS] the columns written in each block */
     uint64_t *resting; /* a bit for each row, which is cleared when the row is written; or NULL */
+    uint64_t *written; /* a bit for each row, which is set when the row is written; or NULL */
 };
 
 /* Notes that these columns of a row are written. */
@@ -23,6 +28,8 @@ static inline void table_note(const struct table_writer *writer, uint32_t row, u
     writer->changed[row / CHECKSUM_ROWS] |= columns;
     if (writer->resting)
         writer->resting[row / 64] &= ~((uint64_t)1 << row % 64);
+    if (writer->written)
+        writer->written[row / 64] |= (uint64_t)1 << row % 64;
 }
 
 /* table_set_x(writer, row, x) and so on: one for each column. */

@@ -1,5 +1,6 @@
 /* Checksums that writers put together from pieces are those of the whole, in every frame of a busy
- * world, on any number of threads: shots, spawns, removals, pauses. SEED=n chooses others. */
+ * world, on any number of threads: shots, spawns, removals, pauses. Rows that the mover does not
+ * name are as they were. SEED=n chooses others. */
 #include "tests/support/fixture.h"
 #include "tests/support/steps.h"
 #include "world/checksum.h"
@@ -60,10 +61,26 @@ static struct command random_command(uint64_t *random, uint64_t number)
     return command;
 }
 
+/* Asserts that rows which the mover did not name are those of the frame before. Returns how many
+ * it did not. */
+static uint32_t check_written(const struct fixture *f, const struct state *now)
+{
+    const struct moved *m = &f->view.m;
+    const struct state *before = &f->view.w[(now->head->frame - 1) & 1];
+    uint32_t unwritten = 0;
+    for (uint32_t row = 0; row < m->head->used; row++) {
+        if (m->written[row / 64] >> row % 64 & 1)
+            continue;
+        unwritten++;
+        assert_true(entities_differing(&m->entities, &before->entities, row) == 0);
+    }
+    return unwritten;
+}
+
 static void check_frames(uint32_t threads, uint64_t seed)
 {
     struct fixture f;
-    uint32_t shots = 0, collisions = 0;
+    uint32_t shots = 0, collisions = 0, unwritten = 0;
     fixture_open(&f, scenario);
     fixture_threads(&f, threads);
     for (uint64_t i = 0; i < FRAMES; i++) {
@@ -71,10 +88,11 @@ static void check_frames(uint32_t threads, uint64_t seed)
             steps_send(&f, RING_CLIENTS, random_command(&seed, i * 4 + n));
         fixture_continue(&f, 1); /* it looks */
         struct state now = fixture_state(&f);
+        unwritten += check_written(&f, &now);
         shots = (uint32_t)now.head->tally.fires;
         collisions = (uint32_t)now.head->tally.collisions;
     }
-    assert_true(shots > 5 && collisions > 0); /* or the test looks at nothing */
+    assert_true(shots > 5 && collisions > 0 && unwritten > 1000); /* or the test looks at nothing */
     fixture_close(&f);
 }
 

@@ -53,7 +53,7 @@ static void test_a_stretch_ends_where_it_is(void **state)
 {
     struct state committed = fixture_state(&f);
     static uint64_t changed[CHECKSUM_BLOCKS];
-    const struct table_writer writer = {&committed.entities, changed, NULL};
+    const struct table_writer writer = {&committed.entities, changed, NULL, NULL};
     uint64_t tick = committed.head->tick;
     (void)state;
     struct cruise_pose before =
@@ -73,7 +73,7 @@ static void test_a_shorter_stretch_leads_the_same_way(void **state)
     struct state committed = fixture_state(&f);
     struct entities *e = &committed.entities;
     static uint64_t changed[CHECKSUM_BLOCKS];
-    const struct table_writer writer = {e, changed, NULL};
+    const struct table_writer writer = {e, changed, NULL, NULL};
     const uint64_t tick = committed.head->tick;
     struct cruise_pose way[7];
     (void)state;

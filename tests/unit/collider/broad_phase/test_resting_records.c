@@ -172,8 +172,8 @@ static void test_rows_that_move_are_made_again(void **state)
     uint64_t *second = resting.kept + RESTING_RECORDS_WORDS; /* the words of the second block */
     second[0] = UINT64_MAX;
     second[1] = 0x7;
-    memset(resting.same, UINT8_MAX, resting.words * sizeof *resting.same);
-    resting.same[RESTING_RECORDS_WORDS + 1] = ~(uint64_t)0x4; /* a response has written it */
+    memset(resting.written, 0, resting.words * sizeof *resting.written);
+    resting.written[RESTING_RECORDS_WORDS + 1] = 0x4; /* by a response */
     assert_int_equal(resting_records_note(&resting, 1, &moving, held, bin), 4);
     assert_int_equal(bin[0], 0);
     assert_int_equal(bin[1], 0x2d);

@@ -116,7 +116,7 @@ static void test_one_whose_stretch_has_ended_tries_again(void **state)
     struct entities e = steps_rows(&f);
     struct state now = fixture_state(&f);
     static uint64_t changed[CHECKSUM_BLOCKS];
-    const struct table_writer writer = {&e, changed, NULL};
+    const struct table_writer writer = {&e, changed, NULL, NULL};
     assert_true(
         cruise_pose_end(&writer, &f.view.world, NULL, tank, now.head->tick, now.head->tick));
     for (; !cruises(tank) && moved < FRAMES; moved++)
@@ -135,7 +135,7 @@ static void test_one_whose_stretch_ends_by_itself_begins_anew(void **state)
     struct entities e = steps_rows(&f);
     const uint64_t tick = fixture_state(&f).head->tick;
     static uint64_t changed[CHECKSUM_BLOCKS];
-    const struct table_writer writer = {&e, changed, NULL};
+    const struct table_writer writer = {&e, changed, NULL, NULL};
     assert_true(cruises(tank));
     assert_true(cruise_pose_end(&writer, &f.view.world, NULL, tank, tick + 6, tick));
     fixture_run(&f, 6);

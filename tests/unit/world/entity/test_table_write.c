@@ -15,8 +15,8 @@
 #define ROW  (CHECKSUM_ROWS + 7) /* in the second block */
 
 static struct entities rows;
-static uint64_t changed[2], resting[ROWS / 64];
-static const struct table_writer writer = {&rows, changed, resting};
+static uint64_t changed[2], resting[ROWS / 64], written[ROWS / 64];
+static const struct table_writer writer = {&rows, changed, resting, written};
 
 static int make(void **state)
 {
@@ -37,14 +37,17 @@ static int release(void **state)
 }
 
 /* Returns the columns marked since the last call; those of the other block must be none. The row
- * that was written rests no more, and all others do. */
+ * that was written rests no more, and all others do; it is noted, and no other is. */
 static uint64_t marked(void)
 {
     uint64_t columns = changed[1];
     assert_true(changed[0] == 0);
-    for (uint32_t word = 0; word < ROWS / 64; word++)
-        assert_true(resting[word] == (word == ROW / 64 ? ~((uint64_t)1 << ROW % 64) : UINT64_MAX));
+    for (uint32_t word = 0; word < ROWS / 64; word++) {
+        assert_true(written[word] == (word == ROW / 64 ? (uint64_t)1 << ROW % 64 : 0));
+        assert_true(resting[word] == ~written[word]);
+    }
     memset(resting, 0xff, sizeof resting);
+    memset(written, 0, sizeof written);
     changed[1] = 0;
     return columns;
 }
