@@ -78,6 +78,12 @@ static inline bool resting_records_awake(const struct resting_records *resting, 
     return resting->never || resting->awake[row / 64] >> row % 64 & 1;
 }
 
+/* Returns true if a response has written the row in this frame. */
+static inline bool resting_records_written(const struct resting_records *resting, uint32_t row)
+{
+    return resting->written[row / 64] >> row % 64 & 1;
+}
+
 /* Returns true if a record of the index is right. */
 static inline bool resting_records_holds(const struct resting_records *resting,
                                          const struct bin_record *record)

@@ -2,12 +2,13 @@
 #include "collider/narrow_phase/cruise_rows.h"
 
 #include "collider/narrow_phase/contact_queue.h"
-#include "world/checksum.h"
-#include "world/state.h"
 #include "world/cruise_pose.h"
 #include "world/maths/sort.h"
+#include "world/state.h"
 #include "world/terrain/fixed.h"
 #include "world/world.h"
+
+#include <string.h>
 
 #define LEAST_TICKS 6u /* a stretch that would be shorter ends at once */
 
@@ -135,14 +136,28 @@ static bool meet(const struct contact_input *input, const struct pair *pair)
     return meet_until(input, pair, UINT64_MAX, UINT64_MAX);
 }
 
+/* Returns true if the pose or the stretch of a row differs, bit by bit. */
+static bool pose_differs(const struct entities *a, const struct entities *b, uint32_t row)
+{
+#define X(type, name)                                                                              \
+    if (POSE_COLUMNS & COLUMN_BIT(name) &&                                                         \
+        memcmp((const unsigned char *)&a->name[row], (const unsigned char *)&b->name[row],         \
+               sizeof(type)) != 0)                                                                 \
+        return true;
+    ENTITY_COLUMNS(X)
+#undef X
+    return false;
+}
+
 /* Returns true if a row moves in this frame, begins a stretch, or has a wider box. By the tables
  * alone: a process that wrote the row in the frame before finds more pairs of it than a new one. */
 static bool comes(const struct contact_input *input, uint32_t row)
 {
     const struct body_motion *motion = input->motion;
+    const struct resting_records *resting = &input->broad->resting;
     return input->broad->wider[row] != BODY_BOX_EXACT || !body_motion_old(motion, row) ||
-           (entities_differing(&motion->committed->entities, &motion->next->entities, row) &
-            POSE_COLUMNS) != 0;
+           ((resting_records_awake(resting, row) || resting_records_written(resting, row)) &&
+            pose_differs(&motion->committed->entities, &motion->next->entities, row));
 }
 
 /* Returns true if neither row of a pair comes anywhere: whether they meet was found before. */
