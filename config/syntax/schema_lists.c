@@ -156,7 +156,8 @@ static const struct key step_keys[] = {
                          "goes as fast as it can, and gives the point up when the next is due."),
     [STEP_KEY_FACE] =
         SCALED("face_deg", T, face_rad, -360, 360, RAD_PER_DEG, NULL, .unit = "degrees",
-               .meaning = "The vehicle turns to this heading, clockwise from north."),
+               .meaning = "The vehicle turns to this heading, clockwise from north. One on wheels "
+                          "drives to and fro until it heads there, some metres about its place."),
     [STEP_KEY_STOP] =
         BOOLEAN("stop", T, stop, STORE_U32, NULL,
                 .meaning = "true: the vehicle brakes until it stands. An aeroplane cannot."),

@@ -13,6 +13,7 @@
 #include "mover/agent/perception.h"
 #include "mover/agent/progress.h"
 #include "mover/agent/ship_course.h"
+#include "mover/agent/shunting.h"
 #include "mover/agent/script_player.h"
 #include "mover/agent/smoke_screen.h"
 #include "mover/agent/target_search.h"
@@ -409,6 +410,8 @@ static void set_controls(const struct step_context *context, uint32_t i, const s
     bool stands = kind->domain == DOMAIN_LAND && throttle == 0.0f;
     if ((holds || stands) && fabs(off) <= COURSE_OFF_RAD)
         off = 0.0;
+    if (stands && !kind->tracked) /* wheels turn no vehicle that stands */
+        off = 0.0;
     m->steer[i] = (float)maths_clamp(off / maths_max(turn, 1e-9), -1.0, 1.0);
     if (!holds || fabsf(throttle - m->throttle[i]) > SPEED_OFF)
         m->throttle[i] = throttle;
@@ -479,6 +482,7 @@ static void think(const struct step_context *context, uint32_t i, const struct k
     if (kind->domain == DOMAIN_SEA && !desired->driven &&
         m->behaviour[i] != BEHAVIOUR_SCRIPT) /* a script's author has chosen the course */
         ship_course_keep(context, i, desired);
+    shunting_steer(context, i, desired);
     avoidance_steer(context, i, desired);
     if (kind->domain == DOMAIN_AIR && !desired->driven)
         fly_clear(context, i, desired);

@@ -4,6 +4,7 @@
 #include "mover/agent/fire_control.h"
 #include "mover/agent/goal.h"
 #include "mover/agent/perception.h"
+#include "mover/agent/shunting.h"
 #include "world/params.h"
 #include "world/state.h"
 #include "world/world.h"
@@ -21,6 +22,7 @@
 #define LOW_SHARE       0.4  /* of its usual height, at which a helicopter changes sides */
 #define POP_UP_SHARE    1.3  /* and from which it fires */
 #define POP_UP_PHASE    0.35 /* share of the cycle in which it waits for a sight of its target */
+#define AIMED_RAD       0.02 /* so far off its target it need not turn its hull */
 #define AIM_HZ          20.0 /* how often an agent tries to fire a loaded gun */
 
 /* The target where the agent last saw it. */
@@ -136,6 +138,8 @@ void attack_motion(const struct step_context *context, uint32_t i,
     default: /* a charge is a stand-off at distance 0 */
         stand_off(kind, &aim, stand_off_m(context, i, kind, table), desired);
         await(context, i, &aim, desired);
+        if (desired->speed_mps == 0.0 && shunting_aims_hull(kind))
+            (void)shunting_face(context, i, aim.heading, AIMED_RAD, desired);
         break;
     }
 }

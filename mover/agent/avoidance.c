@@ -662,11 +662,15 @@ static void look_ahead(const struct step_context *context, uint32_t i,
     bool flies = look.kind->domain == DOMAIN_AIR;
     bool low = !flies || m->y[i] - kinematics_ground(context, m->x[i], m->z[i]) < LOW_FLIGHT_M;
     double ease = 1.0 - ground_speed(context, i, &look, desired) / look.desired_mps;
-    int direction = desired->speed_mps < 0.0 ? PRESENT : 0;
+    bool keeps = desired->speed_mps < 0.0 || desired->shunts;
+    int direction = keeps ? PRESENT : 0;
     see(context, i, &look, low);
     if (direction == 0 && (look.free_m[0] < look.horizon_m ||
                            (!flies && ground_free(context, i, &look, 0) < look.horizon_m)))
         direction = choose(context, i, &look, low);
+    if (desired->shunts)
+        look.free_m[PRESENT] =
+            maths_min(look.free_m[PRESENT], ground_free(context, i, &look, PRESENT));
     if (direction != 0 && direction != PRESENT)
         look.free_m[PRESENT] =
             maths_min(look.free_m[PRESENT], works_free(context, i, &look, PRESENT));
@@ -681,7 +685,8 @@ static void look_ahead(const struct step_context *context, uint32_t i,
     }
     if (free_m < look.horizon_m)
         ease = maths_max(ease, 1.0 - stopping_speed(&look, free_m) / look.desired_mps);
-    m->dodge[i] = (float)(direction < FAN ? fan_rad[direction] : off); /* backwards it only slows */
+    if (!desired->shunts) /* backwards it only slows */
+        m->dodge[i] = (float)(direction < FAN ? fan_rad[direction] : off);
     m->ease[i] = (float)maths_max(ease, 0.0);
 }
 
@@ -708,7 +713,8 @@ void avoidance_steer(const struct step_context *context, uint32_t i, struct desi
         look_ahead(context, i, desired);
     desired->heading_rad = maths_wrap_turn(desired->heading_rad + (double)m->dodge[i]);
     desired->speed_mps *= 1.0 - (double)m->ease[i];
-    if (desired->speed_mps > 0.0 && kind->domain != DOMAIN_SEA && kind->min_speed_mps <= 0.0) {
+    if (desired->speed_mps > 0.0 && !desired->shunts && kind->domain != DOMAIN_SEA &&
+        kind->min_speed_mps <= 0.0) {
         double off = maths_cos(desired->heading_rad - m->heading[i]);
         desired->speed_mps *= maths_clamp(off, SHARP_SHARE, 1.0);
     }

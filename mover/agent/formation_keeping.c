@@ -2,6 +2,7 @@
 #include "mover/agent/formation_keeping.h"
 
 #include "mover/agent/goal.h"
+#include "mover/agent/shunting.h"
 #include "world/entity/event.h"
 #include "world/entity/formation.h"
 #include "world/state.h"
@@ -175,9 +176,11 @@ static void keep_place(const struct step_context *context, uint32_t i, double sp
     double along = dx * sine - dz * cosine, off = sqrt(dx * dx + dz * dz);
     double ahead = maths_max(AHEAD_M, AHEAD_S * speed);
     if (speed < STANDS_MPS && kind->min_speed_mps <= 0.0) {
-        desired->speed_mps =
-            off < IN_PLACE_M ? 0.0 : maths_min(CATCH_UP_PS * off, kind->max_speed_mps);
-        desired->heading_rad = off < IN_PLACE_M ? m->heading[i] : maths_heading(dx, dz);
+        desired->heading_rad = m->heading[i];
+        desired->speed_mps = 0.0;
+        if (off >= IN_PLACE_M)
+            shunting_drive(context, i, dx, dz, maths_min(CATCH_UP_PS * off, kind->max_speed_mps),
+                           desired);
         return;
     }
     if (off > FAR_M && along > 0.0)

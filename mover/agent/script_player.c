@@ -4,6 +4,7 @@
 #include "mover/agent/perception.h"
 #include "mover/agent/driver_controls.h"
 #include "mover/agent/goal.h"
+#include "mover/agent/shunting.h"
 #include "mover/motion/kinematics.h"
 #include "world/entity/script.h"
 #include "world/state.h"
@@ -183,14 +184,17 @@ static void desire_point(const struct reading *r, const struct script_step *step
     double metres = distance_to(r, step);
     m->goal_x[r->i] = step->x;
     m->goal_z[r->i] = step->z;
+    desired->speed_mps = speed;
     if (metres > THERE_M)
-        desired->heading_rad = maths_heading(step->x - m->x[r->i], step->z - m->z[r->i]);
+        shunting_drive(r->context, r->i, step->x - m->x[r->i], step->z - m->z[r->i], speed,
+                       desired);
+    double off = maths_wrap_half(desired->heading_rad - m->heading[r->i]), most = speed;
     if (step->halt) {
         double late = kind_hovers(r->kind) ? FOLLOW_S * slowing(r) : 0.0;
-        speed = maths_min(speed, maths_max(sqrt(2.0 * slowing(r) * metres) - late, 0.0));
+        most = maths_max(sqrt(2.0 * slowing(r) * metres) - late, 0.0);
     }
-    double off = maths_wrap_half(desired->heading_rad - m->heading[r->i]);
-    desired->speed_mps = maths_min(speed, turning_speed(r, metres, off));
+    most = maths_min(most, turning_speed(r, metres, off));
+    desired->speed_mps = maths_clamp(desired->speed_mps, -most, most);
 }
 
 /* Returns true if it is at its point. A row that continues from there need only pass as near as it
@@ -228,7 +232,7 @@ static bool arrive(const struct reading *r, const struct script_step *step,
                  desired);
     if (!is_time(r, seconds) ||
         (!is_there(r, step) &&
-         distance_to(r, step) > desired->speed_mps * r->context->dt_s + THERE_M))
+         distance_to(r, step) > fabs(desired->speed_mps) * r->context->dt_s + THERE_M))
         return false;
     say(r, BEHAVIOUR_SCRIPT, REASON_ARRIVED);
     return true;
@@ -237,9 +241,7 @@ static bool arrive(const struct reading *r, const struct script_step *step,
 static bool face(const struct reading *r, const struct script_step *step,
                  struct desired_motion *desired)
 {
-    desired->heading_rad = step->amount;
-    desired->speed_mps = 0.0;
-    return fabs(maths_wrap_half(step->amount - r->context->m->heading[r->i])) < FACED_RAD;
+    return shunting_face(r->context, r->i, step->amount, FACED_RAD, desired);
 }
 
 /* Waits until its own time, or for a duration since it began. */
@@ -296,7 +298,8 @@ static bool fire(const struct reading *r, const struct script_step *step,
     if (step->type == STEP_FIRE)
         at = step_context_position(r->context, w, target);
     if (!(r->kind->turret_rate_rps > 0.0))
-        desired->heading_rad = maths_heading(at.x - m->x[i], at.z - m->z[i]);
+        (void)shunting_face(r->context, i, maths_heading(at.x - m->x[i], at.z - m->z[i]), FACED_RAD,
+                            desired);
     return tick >= m->until_tick[i];
 }
 

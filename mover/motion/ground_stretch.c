@@ -182,7 +182,7 @@ void ground_stretch_refuse(const struct step_context *context, struct ground_veh
         double most = batch->reaches.lane[l] ? GAIN_MPS : PULL_MPS;
         double x = 0.5 * (m->x[i] + batch->pose.x.lane[l]);
         double z = 0.5 * (m->z[i] + batch->pose.z.lane[l]);
-        bool easy = !batch->rough.lane[l] && !batch->blocked.lane[l] &&
+        bool easy = !batch->rough.lane[l] && !batch->blocked.lane[l] && !batch->tight.lane[l] &&
                     !passes_marks(context, batch, l) && turned <= TURN_RAD && gain <= most &&
                     rightward->lane[l] == 0.0 && !passes_hollow(context, batch, l, bend.lane[l]) &&
                     !cover_is_water(terrain_cover(&context->world->terrain, x, z)) &&

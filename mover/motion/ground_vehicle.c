@@ -20,10 +20,11 @@
 
 #define STANDING_TURN 0.35 /* share of the turn rate at rest */
 #define FULL_TURN_MPS 4.0  /* from this speed on the turn rate is full */
-#define TURNS_MPS     1.0  /* slower wheels turn the vehicle as at this speed */
+#define SLIDES_MPS    1.0  /* a slower vehicle slides no sooner than at this speed */
 #define LATERAL_SHARE 0.75 /* of the greatest lateral acceleration: below that of rough motion */
 #define LEAST_MPS     0.5  /* below it the drive force grows no more */
-#define PIVOT_PM      1e3  /* [1/m] tracks turn a vehicle on the spot */
+#define PIVOT_RPS     1e3  /* tracks turn a vehicle on the spot: more than any turn rate */
+#define LEAST_TURN_M  0.1  /* no circle is tighter */
 #define NEAR_M        1.0  /* between a body and works or craters that cannot be under it */
 #define LEAST_GAIN    0.1  /* [m/s2] a vehicle that can climb gains speed at least so fast */
 #define HALF_WAYS     3    /* so often the speed half way of a stretch is found again */
@@ -85,7 +86,8 @@ static void take_kind(struct ground_vehicle *batch, int l, const struct kind *ki
     batch->gears.lane[l] = drivetrain_gears(kind);
     batch->rolling.lane[l] = kind->tracked ? dirt.tracks : dirt.wheels;
     batch->lateral.lane[l] = LATERAL_SHARE * drivetrain_lateral(kind, dirt.friction);
-    batch->curve.lane[l] = kind->least_turn_m > 0.0 ? 1.0 / kind->least_turn_m : PIVOT_PM;
+    batch->curve.lane[l] = kind->tracked ? 0.0 : 1.0 / maths_max(kind->least_turn_m, LEAST_TURN_M);
+    batch->pivot.lane[l] = kind->tracked ? PIVOT_RPS : 0.0;
     batch->half_length.lane[l] = kind->length_m * 0.5;
     batch->burn_lps.lane[l] = kind->fuel_lps;
     batch->idle_share.lane[l] = kind->idle_share;
@@ -148,18 +150,24 @@ static inline void find_desired(struct ground_vehicle *batch, int h, double dt_s
     batch->wanted_mps.f64x4[h] = SIMD_CHOOSE(held, speed, batch->wanted_mps.f64x4[h]);
 }
 
-/* Steers as kinematics_steer() does: wheels in no tighter circle than they can, and no vehicle so
- * hard that it would slide or lean over. */
-static inline void steer(struct ground_vehicle *batch, int h, const f64x4 *forward, double dt_s)
+/* Steers as kinematics_steer() does: no vehicle so hard that it would slide or lean over, and
+ * wheels in no tighter circle than they can, at the lesser of the speeds before and after the step.
+ * So they turn no vehicle that stands. */
+static inline void steer(struct ground_vehicle *batch, int h, const f64x4 *forward,
+                         const f64x4 *after, double dt_s)
 {
-    const f64x4 slow = SIMD_EVERY(TURNS_MPS), none = SIMD_EVERY(0.0);
-    f64x4 agility = STANDING_TURN + (1.0 - STANDING_TURN) * SIMD_ABS(*forward) / FULL_TURN_MPS;
+    const f64x4 slides = SIMD_EVERY(SLIDES_MPS), none = SIMD_EVERY(0.0);
+    f64x4 speed = SIMD_ABS(*forward), later = SIMD_ABS(*after);
+    f64x4 agility = STANDING_TURN + (1.0 - STANDING_TURN) * speed / FULL_TURN_MPS;
     agility = SIMD_CLAMP(agility, none, SIMD_EVERY(1.0));
-    f64x4 rate = batch->turn_rate.f64x4[h] * agility, speed = SIMD_ABS(*forward);
-    speed = SIMD_MAX(speed, slow);
-    f64x4 circle = speed * batch->curve.f64x4[h], holds = batch->lateral.f64x4[h] / speed;
-    rate = SIMD_MIN(rate, circle);
+    f64x4 rate = batch->turn_rate.f64x4[h] * agility;
+    f64x4 holds = batch->lateral.f64x4[h] / SIMD_MAX(speed, slides);
+    f64x4 circle = SIMD_MIN(speed, later) * batch->curve.f64x4[h] + batch->pivot.f64x4[h];
     rate = SIMD_MIN(rate, holds);
+    f64x4 off = batch->wanted_heading.f64x4[h] - batch->heading.f64x4[h];
+    kinematics_simd_wrap_half(&off);
+    batch->tight.f64x4[h] = (circle < rate) & (SIMD_ABS(off) > circle * dt_s);
+    rate = SIMD_MIN(rate, circle);
     struct kinematics_simd_helm helm = {batch->wanted_heading.f64x4[h], none, {0}};
     kinematics_simd_steer(&batch->heading.f64x4[h], &helm, &rate, dt_s);
 }
@@ -668,11 +676,11 @@ void ground_vehicle_move(const struct step_context *context, struct ground_vehic
         f64x4 vx = batch->vx.f64x4[h], vz = batch->vz.f64x4[h];
         forward.f64x4[h] = vx * sine.f64x4[h] - vz * cosine.f64x4[h];
         rightward.f64x4[h] = vx * cosine.f64x4[h] + vz * sine.f64x4[h];
-        steer(batch, h, &forward.f64x4[h], dt_s);
         burn(batch, h, &wanted, dt_s);
         limit(batch, h, &wanted);
         under_power.f64x4[h] = forward.f64x4[h];
         power(batch, h, &wanted, &under_power.f64x4[h], dt_s);
+        steer(batch, h, &forward.f64x4[h], &under_power.f64x4[h], dt_s);
     }
     if (memcmp((const unsigned char *)&heading, (const unsigned char *)&batch->heading,
                sizeof heading) == 0)

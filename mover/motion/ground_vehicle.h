@@ -20,15 +20,18 @@ struct ground_vehicle {
     /* The kind. */
     union simd_lanes full_mps, acceleration, turn_rate, max_slope, half_length, burn_lps,
         idle_share;
-    union simd_lanes power_wpkg, gears, rolling, lateral, curve; /* drivetrain.h; curve: 1/m */
-    union simd_lanes bend;                                       /* chassis_shell_bend() */
-    union lane_masks tank;                                       /* it has one */
+    union simd_lanes power_wpkg, gears, rolling, lateral; /* drivetrain.h */
+    union simd_lanes curve;  /* [1/m] of the tightest circle of wheels */
+    union simd_lanes pivot;  /* [rad/s] by which tracks turn it at rest */
+    union simd_lanes bend;   /* chassis_shell_bend() */
+    union lane_masks tank;   /* it has one */
     union simd_lanes burns;  /* frames whose fuel it burns (kinematics_burn_frames()) */
     union simd_lanes debris; /* the share of full speed that debris at its place allows */
     union lane_masks rough;  /* result: it leaves the ground that it follows */
     union lane_masks walled; /* rough, and its place would be in the ground: it keeps the old one */
     union lane_masks wades;  /* it comes to water too fast for its brakes */
     union lane_masks blocked;   /* result: water, a slope or the edge of the world blocks it */
+    union lane_masks tight;     /* it turns in its tightest circle, and not as far as it wants */
     union lane_masks reaches;   /* it has the speed that it wants */
     union simd_lanes turned;    /* by which a stretch turns */
     union simd_lanes gain_mps2; /* and gains speed along its heading */

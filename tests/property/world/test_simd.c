@@ -112,16 +112,17 @@ static double powered(const struct step_context *context, const struct kind *kin
                                gain * context->dt_s);
 }
 
-/* How fast it turns without sliding or leaning over. */
-static double turn_rate(const struct kind *kind, double forward)
+/* How fast it turns without sliding or leaning over, and on wheels in its tightest circle. */
+static double turn_rate(const struct kind *kind, double forward, double after)
 {
     double agility = maths_clamp(0.35 + (1.0 - 0.35) * fabs(forward) / 4.0, 0.0, 1.0);
     double speed = maths_max(fabs(forward), 1.0);
-    double curve = kind->least_turn_m > 0.0 ? 1.0 / kind->least_turn_m : 1e3;
+    double circle =
+        maths_min(fabs(forward), fabs(after)) * (1.0 / maths_max(kind->least_turn_m, 0.1));
     double over = 0.8 * (0.5 * kind->track_m / maths_max(kind->centre_height_m, 0.01));
     double lateral = 0.75 * (GRAVITY_MPS2 * maths_min(0.65, over));
-    double rate = maths_min(kind->turn_rate_rps * agility, speed * curve);
-    return maths_min(rate, lateral / speed);
+    double rate = maths_min(kind->turn_rate_rps * agility, lateral / speed);
+    return kind->tracked ? rate : maths_min(rate, circle);
 }
 
 static double standing_height(const struct step_context *context, uint32_t i, double x, double z)
@@ -271,9 +272,6 @@ static bool drive_one(const struct step_context *context, uint32_t i,
     bool blocked = false;
     speeds_of(m, i, &forward, &rightward);
     double heading = m->heading[i], pitch = m->pitch[i];
-    kinematics_steer(context, i, desired, turn_rate(kind, forward));
-    maths_sincos(m->heading[i], &sine, &cosine);
-
     double wanted = desired->speed_mps;
     double share = maths_max(fabs(wanted) / maths_max(kind->max_speed_mps, 1e-9), kind->idle_share);
     double frames = kinematics_parked(m, i) ? 0.0 : 1.0;
@@ -288,6 +286,8 @@ static bool drive_one(const struct step_context *context, uint32_t i,
     wanted = maths_clamp(wanted, -limit, limit);
     double brakes = maths_min(BRAKES * kind->acceleration_mps2, 0.7 * GRAVITY_MPS2), fast = forward;
     forward = powered(context, kind, pitch, forward, wanted);
+    kinematics_steer(context, i, desired, turn_rate(kind, fast, forward));
+    maths_sincos(m->heading[i], &sine, &cosine);
     rightward = kinematics_approach(rightward, 0.0, 0.7 * GRAVITY_MPS2 * context->dt_s);
 
     double vx = forward * sine + rightward * cosine;
