@@ -5,6 +5,7 @@
 #include "mover/agent/earthwork_obstacles.h"
 #include "mover/agent/neighbour_lists.h"
 #include "mover/agent/perception.h"
+#include "mover/agent/progress.h"
 #include "mover/context/cruise_start.h"
 #include "mover/motion/kinematics.h"
 #include "mover/query/ground_marks.h"
@@ -12,6 +13,7 @@
 #include "world/param_values.h"
 #include "world/params.h"
 #include "world/state.h"
+#include "world/terrain/crater.h"
 #include "world/terrain/fixed_index.h"
 #include "world/terrain/gridsquare.h"
 #include "world/terrain/square_bounds.h"
@@ -42,6 +44,8 @@
 #define STRAYS         0.05  /* how far bodies leave their course, as a share of the distance */
 #define GIVEN_WAY_S    2.5   /* the other is expected to give way if they meet later */
 #define CROSSING       0.94  /* cosine of 20 degrees: courses that differ by less do not cross */
+#define DEEPER_M       0.2   /* than a step that it climbs, a crater is an obstacle */
+#define BOWL_SHARE     1.15  /* of its radius, within which a crater's ground is too steep */
 #define ROUNDED_MPS    1e-4  /* more than the index's rounding of velocities */
 
 /* The fan: angles off the desired heading, with their sines and cosines. Direction PRESENT is the
@@ -429,6 +433,45 @@ static void see_fixed(const struct step_context *context, uint32_t i, struct loo
         }
 }
 
+/* Returns true if the row goes around a crater at this place, relative to the vehicle: its kind may
+ * not get out of the bowl, or turns over in it. One that is in the bowl has to get out of it, and a
+ * script may lead there. */
+static bool goes_around(const struct step_context *context, uint32_t i, const struct look *look,
+                        const struct crater *crater, double dx, double dz)
+{
+    const struct entities *m = context->m;
+    const double radius = (double)crater->radius_m;
+    const double goal_x = crater->x - m->goal_x[i], goal_z = crater->z - m->goal_z[i];
+    return (double)crater->depth_m > look->kind->step_m + DEEPER_M &&
+           dx * dx + dz * dz > radius * radius &&
+           (m->behaviour[i] != BEHAVIOUR_SCRIPT ||
+            goal_x * goal_x + goal_z * goal_z > radius * radius);
+}
+
+/* Limits the directions by craters. A vehicle that is stuck again and again drives through them. */
+static void see_craters(const struct step_context *context, uint32_t i, struct look *look)
+{
+    const struct entities *m = context->m;
+    const struct crater_index *craters = context->craters;
+    const double most = look->horizon_m;
+    if (craters->count == 0 || look->kind->domain != DOMAIN_LAND || progress_stuck(context, i))
+        return;
+    const struct gridsquare_box box = gridsquare_box_of(
+        &craters->squares, m->x[i] - most, m->z[i] - most, m->x[i] + most, m->z[i] + most);
+    for (int32_t row = box.z0; row <= box.z1; row++) {
+        for (int32_t column = box.x0; column <= box.x1; column++) {
+            uint32_t link = craters->head[gridsquare_index(&craters->squares, column, row)];
+            for (; link != 0; link = craters->links[link - 1].next) {
+                const struct crater *crater = &craters->craters[craters->links[link - 1].crater];
+                const double dx = crater->x - m->x[i], dz = crater->z - m->z[i];
+                if (dx * dx + dz * dz < most * most &&
+                    goes_around(context, i, look, crater, dx, dz))
+                    limit_by_standing(look, dx, dz, BOWL_SHARE * (double)crater->radius_m);
+            }
+        }
+    }
+}
+
 static void see_vehicle(const struct step_context *context, uint32_t i, struct look *look,
                         const struct neighbour_index_entry *at)
 {
@@ -631,6 +674,7 @@ static double ground_speed(const struct step_context *context, uint32_t i, const
 static void see(const struct step_context *context, uint32_t i, struct look *look, bool low)
 {
     see_vehicles(context, i, look);
+    see_craters(context, i, look);
     if (low)
         see_fixed(context, i, look);
 }

@@ -1,6 +1,8 @@
 /* Avoidance of woods, other vehicles, water and steep ground, on any number of threads. */
 #include "tests/support/steps.h"
 #include "world/entity/kind.h"
+#include "world/state.h"
+#include "world/terrain/crater.h"
 #include "world/terrain/gridsquare.h"
 
 #include <stdarg.h>
@@ -241,6 +243,84 @@ static void test_crossing_traffic_does_not_meet(void **state)
     assert_true(collisions <= 1);
 }
 
+/* Digs a crater with the shape of those of explosions. */
+static void dig(double x, double z, double radius_m)
+{
+    struct state now = fixture_state(&f);
+    struct crater *craters = (struct crater *)(uintptr_t)now.craters;
+    struct state_head *head = (struct state_head *)(uintptr_t)now.head;
+    craters[head->crater_count++] = (struct crater){.x = x,
+                                                    .z = z,
+                                                    .radius_m = (float)radius_m,
+                                                    .depth_m = (float)(0.4 * radius_m),
+                                                    .frame = 1};
+}
+
+/* Sends a vehicle 200 m to the east. Returns how near its middle comes to a place there [m]. */
+static double passes_at(const char *kind, double x, double z)
+{
+    uint32_t row = send(kind, 25000.0, 25000.0, 25260.0, 25000.0);
+    double least = INFINITY;
+    for (int frame = 0; frame < 60 * HZ && steps_rows(&f).x[row] < 25200.0; frame++) {
+        fixture_run(&f, 1);
+        const struct entities e = steps_rows(&f);
+        const double dx = e.x[row] - x, dz = e.z[row] - z;
+        least = maths_min(least, sqrt(dx * dx + dz * dz));
+    }
+    assert_true(steps_rows(&f).x[row] >= 25200.0);
+    return least;
+}
+
+static void test_a_crater_is_crossed_or_gone_around(void **state)
+{
+    static const struct {
+        const char *kind;
+        double radius_m;
+        bool crosses;
+    } cases[] = {{"jeep", 1.1, true},  {"jeep", 2.1, false},  {"jeep", 4.9, false},
+                 {"truck", 1.1, true}, {"truck", 3.0, false}, {"tank", 2.1, true},
+                 {"tank", 4.9, false}};
+    for (size_t n = 0; n < sizeof cases / sizeof cases[0]; n++) {
+        fixture_close(&f);
+        open_world(state);
+        dig(25100.0, 25000.5, cases[n].radius_m);
+        double least = passes_at(cases[n].kind, 25100.0, 25000.5);
+        print_message("%s, crater of %.1f m: %.1f m from its middle\n", cases[n].kind,
+                      cases[n].radius_m, least);
+        assert_true(cases[n].crosses ? least < 1.0 : least > cases[n].radius_m + 0.7);
+    }
+}
+
+/* Jeeps crossed fields of craters at full speed, fell into them and turned over. */
+static void test_nobody_turns_over_in_a_field_of_craters(void **state)
+{
+    enum { JEEPS = 6, ROUNDS = 4, CRATERS = 40 };
+    uint64_t random = fixture_seed(15);
+    int through = 0;
+    for (int round = 0; round < ROUNDS; round++) {
+        uint32_t row[JEEPS];
+        double farthest[JEEPS] = {0.0};
+        fixture_close(&f);
+        open_world(state);
+        for (int n = 0; n < CRATERS; n++)
+            dig(fixture_uniform(&random, 25050.0, 25250.0),
+                fixture_uniform(&random, 24900.0, 25100.0), fixture_uniform(&random, 2.0, 3.2));
+        for (int n = 0; n < JEEPS; n++)
+            row[n] = send("jeep", 25000.0, 24925.0 + 30.0 * n, 25420.0, 24925.0 + 30.0 * n);
+        for (int second = 0; second < 60; second++) {
+            fixture_run(&f, HZ);
+            for (int n = 0; n < JEEPS; n++)
+                farthest[n] = maths_max(farthest[n], steps_rows(&f).x[row[n]]);
+        }
+        for (int n = 0; n < JEEPS; n++) {
+            assert_int_equal(steps_rows(&f).state[row[n]], ENTITY_ACTIVE);
+            through += farthest[n] > 25300.0;
+        }
+    }
+    print_message("%d of %d through\n", through, ROUNDS * JEEPS);
+    assert_true(through >= ROUNDS * JEEPS - 1);
+}
+
 /* It is ordered into a lake. Where it turns towards the water too fast for its brakes, it stops in
  * it as far out as it can ford. */
 static void test_it_stops_before_obstacles_that_it_cannot_pass(void **state)
@@ -451,6 +531,8 @@ int main(void)
         TEST(test_it_sees_one_that_stands_down_the_slope),
         TEST(test_head_on_they_pass_each_other_on_the_right),
         TEST(test_crossing_traffic_does_not_meet),
+        TEST(test_a_crater_is_crossed_or_gone_around),
+        TEST(test_nobody_turns_over_in_a_field_of_craters),
         TEST(test_it_stops_before_obstacles_that_it_cannot_pass),
         TEST(test_nobody_rams_a_row_of_parked_friends),
         TEST(test_who_must_give_way_does_not_turn_into_a_parked_friend),
