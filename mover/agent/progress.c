@@ -1,6 +1,7 @@
 /* Compares the speed of a vehicle with its throttle, and finds those that wait for ever. */
 #include "mover/agent/progress.h"
 
+#include "world/entity/persistent_contact.h"
 #include "world/maths/random.h"
 #include "world/params.h"
 #include "world/state.h"
@@ -10,6 +11,8 @@
 #define DRIVES_MPS 1.0  /* it wants at least this speed */
 #define SLOW_MPS   0.3  /* and reaches less than this, */
 #define SLOW_SHARE 0.06 /* or than this share of it */
+#define SCRAPES    0.25 /* of the wanted speed: one that touches something and is slower scrapes */
+#define TOUCHES_S  2.0  /* by a contact that has lasted so long */
 #define WAITS_S    20.0 /* a land vehicle waits so long where no way is free */
 #define WAITS_EASE 0.5f /* share of its speed that it gives up there */
 #define WAITS_TURN 8u   /* one of so many decisions counts */
@@ -59,19 +62,43 @@ static bool waits(const struct entities *m, uint32_t i, const struct kind *kind)
            m->ease[i] > WAITS_EASE;
 }
 
+/* Returns true if row i has touched another body for a while and presses on it. */
+static bool touches(const struct step_context *context, uint32_t i)
+{
+    const struct state *committed = context->committed;
+    const uint32_t id = context->m->id[i], tick = (uint32_t)committed->head->tick;
+    const uint32_t frames = (uint32_t)(TOUCHES_S / context->dt_s);
+    for (uint32_t n = 0; n < committed->head->contact_count; n++) {
+        const struct persistent_contact *contact = &committed->contacts[n];
+        if ((contact->a_id == id || contact->b_id == id) && tick - contact->begin_tick >= frames &&
+            tick - contact->pressed_tick < frames)
+            return true;
+    }
+    return false;
+}
+
+/* Returns true if a vehicle gets on at this speed. A land vehicle that scrapes along something does
+ * not. */
+static bool gets_on(const struct step_context *context, uint32_t i, double speed, double wanted)
+{
+    if (speed < maths_max(SLOW_MPS, SLOW_SHARE * wanted))
+        return false;
+    return !(context->m->flags[i] & ENTITY_FLAG_CHASSIS) || speed >= SCRAPES * wanted ||
+           !touches(context, i);
+}
+
 bool progress_stalled(const struct step_context *context, uint32_t i)
 {
     struct entities *m = context->m;
     const double think_s = context->think_frames * context->dt_s;
     const struct kind *kind = &context->world->kinds[m->kind[i]];
     double wanted = fabs((double)m->throttle[i]) * kind->max_speed_mps;
-    double least = maths_max(SLOW_MPS, SLOW_SHARE * wanted);
     bool drives = kind->domain != DOMAIN_AIR && wanted >= DRIVES_MPS;
     if (!drives && !waits(m, i, kind)) {
         m->stalled[i] &= (uint8_t)~STALLED_COUNT;
         return false;
     }
-    if (m->vx[i] * m->vx[i] + m->vz[i] * m->vz[i] >= least * least) {
+    if (gets_on(context, i, sqrt(m->vx[i] * m->vx[i] + m->vz[i] * m->vz[i]), wanted)) {
         m->stalled[i] = 0;
         return false;
     }
@@ -81,7 +108,8 @@ bool progress_stalled(const struct step_context *context, uint32_t i)
                         progress_stuck(context, i) ? TRIED_S : WAITS_S);
     double patience = progress_stuck(context, i) ? TRIED_S : STALLED_S;
     if (kind->domain == DOMAIN_SEA)
-        patience += WAY_SHARE * least / maths_max(kind->acceleration_mps2, 0.01);
+        patience += WAY_SHARE * maths_max(SLOW_MPS, SLOW_SHARE * wanted) /
+                    maths_max(kind->acceleration_mps2, 0.01);
     return count_on(context, i, think_s, patience);
 }
 

@@ -2,6 +2,9 @@
 #include "mover/agent/progress.h"
 
 #include "tests/support/steps.h"
+#include "world/entity/persistent_contact.h"
+#include "world/state.h"
+#include "world/terrain/crater.h"
 
 #include <stdarg.h>
 #include <stddef.h>
@@ -102,6 +105,95 @@ static void test_a_truck_gives_up_against_what_it_does_not_see(void **state)
     assert_int_equal(event->agent.to, BEHAVIOUR_BACK_OFF);
     if (longest > PUSH_S * HZ)
         fail_msg("pushed for %g s", (double)longest / HZ);
+}
+
+/* A truck crawls north at a walk, though it wants to go at three quarters of its speed. touches: a
+ * tank scrapes at it meanwhile. Returns when it backs off [s], or INFINITY. */
+static double crawls_until(bool touches)
+{
+    fixture_open(&f, WORLD
+                 "vehicles = ( { kind = \"truck\"; at = [25000.0, 25000.0]; heading_deg = 0.0;"
+                 " route = ([25000.0, 24000.0], [25000.0, 23000.0]); },"
+                 "{ kind = \"tank\"; at = [25000.0, 26000.0]; behaviour = \"hold\"; } );");
+    for (int frame = 0; frame < 20 * HZ; frame++) {
+        struct entities e = steps_rows(&f);
+        struct state now = fixture_state(&f);
+        struct state_head *head = (struct state_head *)(uintptr_t)now.head;
+        if (e.behaviour[0] == BEHAVIOUR_BACK_OFF)
+            return (double)frame / HZ;
+        e.vx[0] = 0.0;
+        e.vz[0] = -1.5;
+        e.flags[0] |= ENTITY_FLAG_CHASSIS;
+        e.jolt_tick[0] = (uint32_t)head->tick;
+        head->contact_count = touches;
+        now.contacts[0] = (struct persistent_contact){.a_id = e.id[0],
+                                                      .b_id = e.id[1],
+                                                      .a_row = 0,
+                                                      .b_row = 1,
+                                                      .pressed_tick = (uint32_t)head->tick};
+        fixture_run(&f, 1);
+    }
+    return INFINITY;
+}
+
+/* A jeep scraped at a dead tank for a minute. Who crawls up a slope goes on. */
+static void test_who_scrapes_along_something_gives_up(void **state)
+{
+    (void)state;
+    double gives_up_s = crawls_until(true);
+    fixture_close(&f);
+    double alone_s = crawls_until(false);
+    print_message("beside a tank it gives up after %.2f s\n", gives_up_s);
+    assert_true(gives_up_s > 4.0 && gives_up_s < 8.0);
+    assert_true(alone_s == INFINITY);
+}
+
+/* --- craters -----------------------------------------------------------------------------------*/
+
+/* A shell has burst under a jeep, this far south of which the middle of its crater is. Returns
+ * after how long it is out of the crater [s]; INFINITY: it has given up. */
+static double out_of_crater(double south_m, double heading_deg)
+{
+    char text[400];
+    (void)snprintf(text, sizeof text,
+                   WORLD MODELS
+                   "vehicles = ( { kind = \"jeep\"; at = [25000.0, 25000.0]; heading_deg "
+                   "= %.1f; route = ([25000.0, 24000.0], [25000.0, 23000.0]); } );",
+                   heading_deg);
+    fixture_open(&f, text);
+    struct state now = fixture_state(&f);
+    struct state_head *head = (struct state_head *)(uintptr_t)now.head;
+    now.craters[0] = (struct crater){25000.0, 25000.0 + south_m, 2.1f, 0.84f, 1};
+    head->crater_count = 1;
+    double out_s = -1.0;
+    for (int frame = 0; frame < 300 * HZ && out_s < 0.0; frame++) {
+        fixture_run(&f, 1);
+        const struct entities e = steps_rows(&f);
+        const double dx = e.x[0] - 25000.0, dz = e.z[0] - 25000.0 - south_m;
+        if (dx * dx + dz * dz > 5.0 * 5.0)
+            out_s = (double)frame / HZ;
+        else if (e.behaviour[0] == BEHAVIOUR_IDLE)
+            out_s = INFINITY;
+    }
+    assert_int_equal(steps_rows(&f).state[0], ENTITY_ACTIVE);
+    fixture_close(&f);
+    return out_s;
+}
+
+static void test_a_jeep_drives_out_of_a_crater_or_gives_up(void **state)
+{
+    enum { PLACES = 10 };
+    int out = 0;
+    (void)state;
+    for (int n = 0; n < PLACES; n++) {
+        double out_s = out_of_crater(0.4 * (n / 2), n % 2 ? 0.0 : 45.0);
+        assert_true(out_s >= 0.0);
+        out += out_s < INFINITY;
+    }
+    fixture_open(&f, WORLD); /* the teardown closes it */
+    print_message("# figures: out of %d of %d places in a crater as long as the jeep\n", out,
+                  PLACES);
+    assert_true(out >= PLACES / 2);
 }
 
 /* --- trenches ----------------------------------------------------------------------------------*/
@@ -280,6 +372,8 @@ int main(void)
         TEST(test_a_truck_gives_up_against_a_house),
         TEST(test_a_column_behind_a_blocked_truck_does_not_push),
         TEST(test_a_truck_gives_up_against_what_it_does_not_see),
+        TEST(test_who_scrapes_along_something_gives_up),
+        TEST(test_a_jeep_drives_out_of_a_crater_or_gives_up),
         TEST(test_a_vehicle_drives_out_of_a_trench_or_gives_up),
         TEST(test_it_is_stuck_when_it_drives_for_three_seconds_in_vain),
         TEST(test_it_is_stuck_when_it_waits_for_twenty_seconds),
