@@ -2,7 +2,7 @@
 #include "mover/agent/avoidance.h"
 
 #include "mover/agent/driving_pace.h"
-#include "mover/agent/earthwork_obstacles.h"
+#include "mover/agent/driving/earthwork_obstacles.h"
 #include "mover/agent/neighbour_lists.h"
 #include "mover/agent/perception.h"
 #include "mover/agent/progress.h"

@@ -1,5 +1,5 @@
 /* Cuts a way with the rectangles of works. */
-#include "mover/agent/earthwork_obstacles.h"
+#include "mover/agent/driving/earthwork_obstacles.h"
 
 #include "world/maths/maths.h"
 #include "world/terrain/gridsquare.h"

@@ -1,8 +1,8 @@
 /* Earthworks that a land vehicle cannot cross: trenches that are wider than its kind's trench_m,
  * faces that are steeper than its max_slope_rad and higher than its step_m, and fords that are
  * deeper than its ford_m. Pure; any thread. */
-#ifndef JOLON_MOVER_AGENT_EARTHWORK_OBSTACLES_H
-#define JOLON_MOVER_AGENT_EARTHWORK_OBSTACLES_H
+#ifndef JOLON_MOVER_AGENT_DRIVING_EARTHWORK_OBSTACLES_H
+#define JOLON_MOVER_AGENT_DRIVING_EARTHWORK_OBSTACLES_H
 
 #include "world/entity/kind.h"
 #include "world/terrain/earthwork.h"

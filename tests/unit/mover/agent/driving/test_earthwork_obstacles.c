@@ -1,5 +1,5 @@
 /* Agents go around earthworks that their kind cannot cross, and straight over those that it can. */
-#include "mover/agent/earthwork_obstacles.h"
+#include "mover/agent/driving/earthwork_obstacles.h"
 #include "tests/support/steps.h"
 #include "world/world.h"
 
