@@ -18,13 +18,14 @@
 #include <errno.h>
 #include <stdlib.h>
 
-#define ROUNDING_M     1e-5 /* a depth up to this is none */
-#define APART_M        1e-6 /* bodies that are farther apart than they can have come do not touch */
-#define EXACT_M        1e-8 /* error of a depth: less is no deepening of a greater depth */
-#define PAIRS_A_PIECE  8u
-#define ROWS_A_PIECE   16u
-#define SENT_BACK_HALF 3u /* so often a row goes back by half, the next time all the way */
-#define SENT_BACK_MOST 5u /* aircraft that go together go back among themselves before */
+#define ROUNDING_M      1e-5 /* a depth up to this is none */
+#define APART_M         1e-6 /* bodies that are farther apart than they can have come do not touch */
+#define EXACT_M         1e-8 /* error of a depth: less is no deepening of a greater depth */
+#define PAIRS_A_PIECE   8u
+#define ROWS_A_PIECE    16u
+#define MOST_ROWS_PAIRS 8u /* up to so many pairs for each row that is looked at, most rows are */
+#define SENT_BACK_HALF  3u /* so often a row goes back by half, the next time all the way */
+#define SENT_BACK_MOST  5u /* aircraft that go together go back among themselves before */
 
 /* A body at rest. */
 struct placed_body {
@@ -393,8 +394,15 @@ static void add_pair(struct end_guard *guard, const struct contact_queue *contac
     guard->pair[guard->pair_count++] = (struct guard_pair){.pair = index};
 }
 
+/* Returns true if the row is guarded. Only such rows are posed. */
+static bool is_posed(const struct end_guard *guard, const struct response_context *context,
+                     uint32_t row)
+{
+    return guard->posed[row] || guarded(context, row);
+}
+
 /* Lists the row's pairs, except those that are so deep that they part as capsules. A pair of two
- * rows that are looked at is listed once. Only rows that are guarded are posed. */
+ * rows that are looked at is listed once. */
 static void add_pairs_of(struct end_guard *guard, const struct response_context *context,
                          uint32_t row)
 {
@@ -407,10 +415,40 @@ static void add_pairs_of(struct end_guard *guard, const struct response_context 
         if (contacts->marks[index] & CONTACT_CAPSULES)
             continue;
         if (fixed ? !contact_groups_is_wall(context, other & ~PAIR_FIXED)
-                  : (guard->listed[other] && other < row) ||
-                        !(guard->posed[other] || guarded(context, other)))
+                  : (guard->listed[other] && other < row) || !is_posed(guard, context, other))
             continue;
         add_pair(guard, contacts, index);
+    }
+}
+
+/* Lists the same pairs as add_pairs_of() for all rows that are looked at, in the order of the
+ * queue: where most rows are looked at, that costs less than the list of each. */
+static void add_all_pairs(struct end_guard *guard, const struct response_context *context)
+{
+    const struct contact_queue *contacts = context->contacts;
+    for (uint32_t i = 0; i < contacts->pair_count; i++) {
+        uint32_t a = contacts->pair[i].a, b = contacts->pair[i].b;
+        bool fixed = b & PAIR_FIXED;
+        if (contacts->marks[i] & CONTACT_CAPSULES ||
+            !(guard->listed[a] || (!fixed && guard->listed[b])) ||
+            (fixed && !contact_groups_is_wall(context, b & ~PAIR_FIXED)) ||
+            !is_posed(guard, context, a) || !(fixed || is_posed(guard, context, b)))
+            continue;
+        add_pair(guard, contacts, i);
+    }
+}
+
+/* Lists the pairs of all rows that are looked at. */
+static void add_pairs(struct end_guard *guard, const struct response_context *context)
+{
+    if (guard->posed_count == 0 &&
+        context->contacts->pair_count <= MOST_ROWS_PAIRS * (uint64_t)guard->count) {
+        add_all_pairs(guard, context);
+        return;
+    }
+    for (uint32_t i = 0; i < guard->count; i++) {
+        if (guarded(context, guard->row[i]))
+            add_pairs_of(guard, context, guard->row[i]);
     }
 }
 
@@ -545,10 +583,7 @@ static void run_round(struct end_guard *guard, struct response_context *context)
 {
     struct round round = {guard, context, guard->posed_count};
     guard->back_count = guard->pair_count = 0;
-    for (uint32_t i = 0; i < guard->count; i++) {
-        if (guarded(context, guard->row[i]))
-            add_pairs_of(guard, context, guard->row[i]);
-    }
+    add_pairs(guard, context);
     thread_pool_run(guard->workers, stand_some, &round, guard->posed_count - round.posed,
                     ROWS_A_PIECE);
     thread_pool_run(guard->workers, measure_some, &round, guard->pair_count, PAIRS_A_PIECE);
