@@ -20,6 +20,7 @@
 #define STRIPS_A_PIECE 4
 #define QUERIES_LEAST  2048 /* fewer cost less than an index of all rows */
 #define ALONE_MOST     8192 /* rows that one thread finishes sooner than others would wake */
+#define ALONE_LEAST    256  /* and sooner than others that are awake would help */
 
 int broad_phase_init(struct broad_phase *broad, const struct world *world,
                      struct thread_pool *workers)
@@ -208,7 +209,8 @@ void broad_phase_pairs_moved(struct broad_phase *broad, const struct method_inpu
                              struct body_motion *motion, broad_phase_take *take, void *context)
 {
     struct job job = {.broad = broad, .take = take, .context = context};
-    struct thread_pool *workers = input->rows > ALONE_MOST ? broad->workers : NULL;
+    uint32_t alone = thread_pool_is_held(broad->workers) ? ALONE_LEAST : ALONE_MOST;
+    struct thread_pool *workers = input->rows > alone ? broad->workers : NULL;
     const struct world *world = input->world;
     for (uint32_t i = 0; i < world->counts.kinds && i < KIND_COUNT_MAX; i++) {
         job.margin[i] = pair_filter_margin(world, &world->kinds[i]);

@@ -21,7 +21,8 @@
 #define ROUNDING_M      1e-5 /* a depth up to this is none */
 #define APART_M         1e-6 /* bodies that are farther apart than they can have come do not touch */
 #define EXACT_M         1e-8 /* error of a depth: less is no deepening of a greater depth */
-#define PAIRS_A_PIECE   8u
+#define PAIRS_A_PIECE   8u   /* of few, most of which are near; of all pairs most are not */
+#define PIECES          64u
 #define ROWS_A_PIECE    16u
 #define MOST_ROWS_PAIRS 8u /* up to so many pairs for each row that is looked at, most rows are */
 #define SENT_BACK_HALF  3u /* so often a row goes back by half, the next time all the way */
@@ -586,7 +587,9 @@ static void run_round(struct end_guard *guard, struct response_context *context)
     add_pairs(guard, context);
     thread_pool_run(guard->workers, stand_some, &round, guard->posed_count - round.posed,
                     ROWS_A_PIECE);
-    thread_pool_run(guard->workers, measure_some, &round, guard->pair_count, PAIRS_A_PIECE);
+    uint32_t piece = guard->pair_count / PIECES;
+    thread_pool_run(guard->workers, measure_some, &round, guard->pair_count,
+                    piece > PAIRS_A_PIECE ? piece : PAIRS_A_PIECE);
     heed_ways(guard, context);
     mark_deeper(guard, context);
     for (uint32_t i = 0; i < guard->count; i++)

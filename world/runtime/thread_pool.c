@@ -62,7 +62,9 @@ static void pause_briefly(void)
 #endif
 }
 
-/* Works on what is left of a share. */
+/* Works on what is left of a share. Only the caller counts its pieces as work done: the counter is
+ * one for all threads, and two that count short pieces wait for each other. A caller without a
+ * piece waits for one piece of each helper at most. */
 static void work_on(struct thread_pool *workers, struct share *share, uint32_t worker)
 {
     for (;;) {
@@ -72,7 +74,8 @@ static void work_on(struct thread_pool *workers, struct share *share, uint32_t w
         uint32_t first = piece * workers->grain, left = workers->count - first;
         workers->function(workers->context, first,
                           first + (left < workers->grain ? left : workers->grain), worker);
-        work_done();
+        if (worker == 0)
+            work_done();
     }
 }
 
@@ -218,6 +221,11 @@ void thread_pool_let_go(struct thread_pool *workers)
 {
     if (workers)
         atomic_store(&workers->held, false);
+}
+
+bool thread_pool_is_held(const struct thread_pool *workers)
+{
+    return workers && atomic_load(&workers->held);
 }
 
 static uint32_t polls_for(uint32_t threads)

@@ -3,6 +3,7 @@
 #ifndef JOLON_WORLD_RUNTIME_THREAD_POOL_H
 #define JOLON_WORLD_RUNTIME_THREAD_POOL_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 #define THREAD_POOL_MAX 16
@@ -23,6 +24,10 @@ uint32_t thread_pool_threads(const struct thread_pool *workers);
  * these. Nothing happens where there are fewer processors than threads. */
 void thread_pool_hold(struct thread_pool *workers);
 void thread_pool_let_go(struct thread_pool *workers);
+
+/* Returns true while the helpers are kept awake: jobs of a few tens of microseconds pay. workers
+ * may be NULL. */
+bool thread_pool_is_held(const struct thread_pool *workers);
 
 /* Runs function over 0 .. count - 1 in blocks of at most grain rows, on all threads; returns when
  * all are done. With fewer than two blocks, one thread or workers NULL the caller does it alone and
