@@ -16,6 +16,9 @@
 
 #define SORT_LEAST     6u  /* with fewer records every pair is compared */
 #define BUCKET_BITS    16u /* at most: a quarter of a megabyte, which fits into a core's cache */
+#define CROWDED        32u /* records in a bucket */
+#define SAMPLES        8u
+#define NARROWER       3u  /* bits of the number of a bucket where they are crowded */
 #define BLOCK          16u /* records compared at a time */
 #define NEAR           3u  /* following records that every record is compared with */
 #define PADDING        (2 * BLOCK)
@@ -39,7 +42,7 @@ int sweep_worker_init(struct sweep_worker *sweeper, uint32_t rows, uint32_t pair
     sweeper->low_z = reserve_take(padded, sizeof *sweeper->low_z);
     sweeper->high_z = reserve_take(padded, sizeof *sweeper->high_z);
     sweeper->tag = reserve_take(padded, sizeof *sweeper->tag);
-    sweeper->bucket = reserve_take(1u << BUCKET_BITS, sizeof *sweeper->bucket);
+    sweeper->bucket = reserve_take((1u << BUCKET_BITS) + 1, sizeof *sweeper->bucket);
     sweeper->candidate = reserve_take(SWEEP_AND_PRUNE_CANDIDATES, sizeof *sweeper->candidate);
     return sweeper->record && sweeper->sorted && sweeper->min_x && sweeper->max_x &&
                    sweeper->low_z && sweeper->high_z && sweeper->tag && sweeper->bucket &&
@@ -219,13 +222,61 @@ static void gather(const struct strips *strips, struct sweep_worker *sweeper, ui
     sweeper->count = total;
 }
 
-/* Chooses the bucket width so that the world has at least as many buckets as there are records. */
-static void set_buckets(struct sweep_worker *sweeper)
+/* Divides what lies between two west edges into up to 2^bits buckets, and one. */
+static void set_buckets(struct sweep_worker *sweeper, int32_t west, int32_t east, uint32_t bits)
 {
-    uint32_t bits = 5;
-    while (1u << bits < sweeper->count && bits < BUCKET_BITS)
-        bits++;
-    sweeper->shift = BIN_BITS - bits;
+    uint32_t across = 32 - (uint32_t)__builtin_clz((uint32_t)(east - west) | 1u);
+    sweeper->shift = across > bits ? across - bits : 0;
+    sweeper->first = (uint32_t)west >> sweeper->shift;
+    sweeper->last = (uint32_t)east >> sweeper->shift;
+}
+
+/* Counts the records of each bucket, and collects their tags. */
+static void count_records(struct sweep_worker *sweeper)
+{
+    uint32_t *bucket = sweeper->bucket, shift = sweeper->shift, first = sweeper->first;
+    uint32_t count = sweeper->count, tags = 0;
+    const struct bin_record *record = sweeper->record;
+    memset(bucket, 0, (sweeper->last - first + 1) * sizeof *bucket);
+    for (uint32_t i = 0; i < count; i++) {
+        bucket[((uint32_t)record[i].min_x >> shift) - first]++;
+        tags |= record[i].tag;
+    }
+    sweeper->tags = tags;
+}
+
+/* Returns true if the bucket of one of a few records holds many: each would be compared with all of
+ * the others. */
+static bool is_crowded(const struct sweep_worker *sweeper)
+{
+    for (uint32_t i = 0; i < SAMPLES; i++) {
+        const struct bin_record *record = &sweeper->record[(uint64_t)i * sweeper->count / SAMPLES];
+        if (sweeper->bucket[((uint32_t)record->min_x >> sweeper->shift) - sweeper->first] > CROWDED)
+            return true;
+    }
+    return false;
+}
+
+/* Chooses narrower buckets, and those only between the first and the last west edge: a heap of
+ * vehicles fills a small part of its strip. */
+static void set_narrow_buckets(struct sweep_worker *sweeper, uint32_t bits)
+{
+    int32_t west = INT32_MAX, east = 0;
+    for (uint32_t i = 0; i < sweeper->count; i++) {
+        int32_t x = sweeper->record[i].min_x;
+        west = x < west ? x : west;
+        east = x > east ? x : east;
+    }
+    set_buckets(sweeper, west, east, bits < BUCKET_BITS ? bits : BUCKET_BITS);
+}
+
+/* Returns where the records end that begin west of x, or in its bucket. */
+static uint32_t end_at(const struct sweep_worker *sweeper, int32_t x)
+{
+    uint32_t key = (uint32_t)x >> sweeper->shift;
+    if (key < sweeper->first)
+        return 0;
+    return sweeper->bucket[(key < sweeper->last ? key : sweeper->last) - sweeper->first];
 }
 
 /* Splits the records into one array for each word. All four words are copied, since gcc vectorises
@@ -244,28 +295,30 @@ static void spread(const uint32_t *restrict word, int32_t *restrict min_x, int32
 
 static void sort_records(struct sweep_worker *sweeper)
 {
-    uint32_t count = sweeper->count, end = 0, tags = 0;
-    set_buckets(sweeper);
-    uint32_t *bucket = sweeper->bucket, shift = sweeper->shift, buckets = 1u << (BIN_BITS - shift);
     const struct bin_record *record = sweeper->record;
-    memset(bucket, 0, buckets * sizeof *bucket);
-    for (uint32_t i = 0; i < count; i++) {
-        bucket[(uint32_t)record[i].min_x >> shift]++;
-        tags |= record[i].tag;
+    struct bin_record *sorted = sweeper->sorted;
+    uint32_t count = sweeper->count, end = 0, bits = 5;
+    while (1u << bits < count && bits < BUCKET_BITS)
+        bits++;
+    set_buckets(sweeper, 0, (1 << BIN_BITS) - 1, bits); /* as many as records, or more */
+    count_records(sweeper);
+    if (is_crowded(sweeper)) {
+        set_narrow_buckets(sweeper, bits + NARROWER);
+        count_records(sweeper);
     }
-    sweeper->tags = tags;
-    for (uint32_t i = 0; i < buckets; i++) {
+    uint32_t *bucket = sweeper->bucket, shift = sweeper->shift, first = sweeper->first;
+    for (uint32_t i = 0; i <= sweeper->last - first; i++) {
         uint32_t more = bucket[i];
         bucket[i] = end;
         end += more;
     }
     for (uint32_t i = 0; i < count; i++)
-        sweeper->sorted[bucket[(uint32_t)record[i].min_x >> shift]++] = record[i];
+        sorted[bucket[((uint32_t)record[i].min_x >> shift) - first]++] = record[i];
     for (uint32_t i = count; i < count + PADDING; i++)
-        sweeper->sorted[i] = (struct bin_record){.min_x = INT32_MAX, .max_x = INT32_MIN};
+        sorted[i] = (struct bin_record){.min_x = INT32_MAX, .max_x = INT32_MIN};
     for (uint32_t i = 0; i < count + BLOCK; i += BLOCK)
-        spread((const void *)&sweeper->sorted[i], sweeper->min_x + i, sweeper->max_x + i,
-               sweeper->low_z + i, sweeper->high_z + i, sweeper->tag + i);
+        spread((const void *)&sorted[i], sweeper->min_x + i, sweeper->max_x + i, sweeper->low_z + i,
+               sweeper->high_z + i, sweeper->tag + i);
 }
 
 /* --- the sweep ---------------------------------------------------------------------------------*/
@@ -326,7 +379,7 @@ static void sweep_far(struct sweep_worker *sweeper, uint32_t i)
 {
     uint8_t hit[BLOCK], place[BLOCK];
     const struct bin_record *one = &sweeper->sorted[i];
-    uint32_t last = sweeper->bucket[(uint32_t)one->max_x >> sweeper->shift];
+    uint32_t last = end_at(sweeper, one->max_x);
     for (uint32_t j = i + NEAR + 1; j < last; j += BLOCK) {
         compare_with(sweeper->min_x + j, sweeper->max_x + j, sweeper->low_z + j,
                      sweeper->high_z + j, one, hit);
@@ -415,10 +468,9 @@ static void look_from(const struct strips *strips, struct sweep_worker *sweeper,
                       const struct bin_record *object, uint32_t strip)
 {
     uint8_t hit[BLOCK], place[BLOCK];
-    int32_t west = object->min_x - BIN_WIDE_STEPS;
-    uint32_t key = (uint32_t)(west > 0 ? west : 0) >> sweeper->shift;
-    uint32_t end = sweeper->bucket[(uint32_t)object->max_x >> sweeper->shift];
-    for (uint32_t i = key > 0 ? sweeper->bucket[key - 1] : 0; i < end; i += BLOCK) {
+    int32_t west = object->min_x - BIN_WIDE_STEPS - (1 << sweeper->shift);
+    uint32_t end = end_at(sweeper, object->max_x);
+    for (uint32_t i = west > 0 ? end_at(sweeper, west) : 0; i < end; i += BLOCK) {
         compare_with(sweeper->min_x + i, sweeper->max_x + i, sweeper->low_z + i,
                      sweeper->high_z + i, object, hit);
         uint32_t hits = list_hits(hit, place);

@@ -29,6 +29,7 @@ struct sweep_worker {
     uint32_t count, capacity;
     uint32_t *bucket;       /* where each bucket's records end */
     uint32_t shift;         /* a bucket is 2^shift steps wide */
+    uint32_t first, last;   /* which they are, in their widths from the world's west edge */
     struct pair *candidate; /* [SWEEP_AND_PRUNE_CANDIDATES] tags of records that meet */
     uint32_t candidates;
     struct pair_list pairs;  /* the result */
