@@ -3,8 +3,9 @@
  *
  * Jobs follow each other within microseconds, and putting a thread to sleep and waking it takes
  * tens of them. So a waiting thread polls for a short while before it sleeps, and without an end
- * while the caller holds the pool. The caller does not wait for a helper that woke after all work
- * was done.
+ * while the caller holds the pool. Then it yields its processor now and again: beside other
+ * programs the caller may be on the same one. The caller does not wait for a helper that woke after
+ * all work was done.
  *
  * Each thread begins with a share of its own, and helps the others when that is done. Jobs over the
  * same rows follow each other, so what a thread has written mostly lies in the cache of the
@@ -122,7 +123,10 @@ static void wait_for_job(struct thread_pool *workers, uint64_t seen)
         for (uint32_t i = 0; i < workers->polls || atomic_load(&workers->held); i++) {
             if (is_needed(workers, seen))
                 return;
-            pause_briefly();
+            if (i % POLLS == POLLS - 1)
+                sched_yield(); /* the caller may wait for this processor */
+            else
+                pause_briefly();
         }
         sleep_until_needed(workers, seen);
         if (is_needed(workers, seen))

@@ -1,12 +1,15 @@
 /* Workers: every row once, whatever the threads, the rows and the grain. */
 #include "world/runtime/thread_pool.h"
 
+#include <dirent.h>
 #include <errno.h>
+#include <sched.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdatomic.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
@@ -143,6 +146,7 @@ static void test_helpers_are_held(void **state)
     for (long i = 0; i < 20; i++) {
         _Atomic uint32_t met = 0;
         rest_us(200);
+        assert_false(thread_pool_is_held(workers));
         thread_pool_hold(workers);
         rest_us(10 * i);
         thread_pool_run(workers, meet, &met, 2, 1);
@@ -160,6 +164,52 @@ static void test_helpers_are_held(void **state)
     thread_pool_destroy(workers);
     thread_pool_hold(NULL);
     thread_pool_let_go(NULL);
+}
+
+static double used_s(clockid_t clock)
+{
+    struct timespec used;
+    clock_gettime(clock, &used);
+    return (double)used.tv_sec + 1e-9 * (double)used.tv_nsec;
+}
+
+/* Lets all threads of the process run on the given processors only. */
+static void run_on(const cpu_set_t *processors)
+{
+    DIR *tasks = opendir("/proc/self/task");
+    assert_non_null(tasks);
+    for (struct dirent *task; (task = readdir(tasks)) != NULL;) {
+        if (task->d_name[0] != '.')
+            sched_setaffinity((pid_t)strtol(task->d_name, NULL, 10), sizeof *processors,
+                              processors);
+    }
+    closedir(tasks);
+}
+
+/* Beside other programs the caller and a helper that is held may be on the same processor. */
+static void test_a_held_helper_gives_way_to_the_caller(void **state)
+{
+    cpu_set_t all, one;
+    (void)state;
+    assert_int_equal(sched_getaffinity(0, sizeof all, &all), 0);
+    if (CPU_COUNT(&all) < 2)
+        skip();
+    struct thread_pool *workers = thread_pool_create(2);
+    CPU_ZERO(&one);
+    for (size_t i = 0; CPU_COUNT(&one) == 0; i++) {
+        if (CPU_ISSET(i, &all))
+            CPU_SET(i, &one);
+    }
+    run_on(&one);
+    thread_pool_hold(workers);
+    double own = used_s(CLOCK_THREAD_CPUTIME_ID), both = used_s(CLOCK_PROCESS_CPUTIME_ID);
+    while (used_s(CLOCK_THREAD_CPUTIME_ID) - own < 0.05)
+        continue;
+    own = used_s(CLOCK_THREAD_CPUTIME_ID) - own;
+    both = used_s(CLOCK_PROCESS_CPUTIME_ID) - both;
+    thread_pool_destroy(workers);
+    run_on(&all);
+    assert_true(both - own < 0.3 * own);
 }
 
 struct delay {
@@ -231,6 +281,7 @@ int main(void)
         cmocka_unit_test(test_work_is_shared_by_threads),
         cmocka_unit_test(test_helpers_come_after_any_rest),
         cmocka_unit_test(test_helpers_are_held),
+        cmocka_unit_test(test_a_held_helper_gives_way_to_the_caller),
         cmocka_unit_test(test_the_caller_waits_for_who_is_in),
         cmocka_unit_test(test_thousands_of_jobs_follow_each_other),
         cmocka_unit_test(test_idle_workers_end),
