@@ -137,6 +137,17 @@ static bool met_before(const struct strips *strips, uint32_t a, uint32_t b, uint
     return false;
 }
 
+/* Returns true if the bodies of two rows whose boxes meet cannot touch, because only corners of
+ * their boxes meet. Of rows that cruise it has to be known what comes near to their boxes. */
+static bool pass_by(const struct strips *strips, uint32_t a, uint32_t b)
+{
+    const uint16_t *kind = strips->input->entities->kind;
+    double margins_m = strips->margin[kind[a]] + strips->margin[kind[b]];
+    return pair_filter_only_corners_meet(&strips->box[a], &strips->box[b], margins_m) &&
+           !(strips->motion &&
+             (body_motion_cruises(strips->motion, a) || body_motion_cruises(strips->motion, b)));
+}
+
 static void take_moving(const struct strips *strips, struct sweep_worker *sweeper, struct pair tags,
                         uint32_t strip)
 {
@@ -145,7 +156,8 @@ static void take_moving(const struct strips *strips, struct sweep_worker *sweepe
     if (!pair_filter_boxes_meet(&strips->box[a], &strips->box[b]) ||
         (tags.a & tags.b & BIN_SPANS && met_before(strips, tags.a, tags.b, strip)) ||
         (tags.a & tags.b & BIN_REMOTE) ||
-        ((tags.a | tags.b) & BIN_ROUND && pair_never_meets(strips->input->entities, a, b)))
+        ((tags.a | tags.b) & BIN_ROUND && pair_never_meets(strips->input->entities, a, b)) ||
+        pass_by(strips, a, b))
         return;
     pair_list_add(&sweeper->pairs, a, b);
 }

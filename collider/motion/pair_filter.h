@@ -130,6 +130,18 @@ static inline bool pair_filter_boxes_meet(const struct path_box *a, const struct
            b->min_z <= a->max_z && a->min_y <= b->max_y && b->min_y <= a->max_y;
 }
 
+/* Returns true if of two boxes that meet only corners do, so that their bodies cannot touch while
+ * the boxes of their paths stay within these: no point of a body is farther from its position than
+ * the box is from the path. margins_m: of both boxes, added up. */
+static inline bool pair_filter_only_corners_meet(const struct path_box *a, const struct path_box *b,
+                                                 double margins_m)
+{
+    double west = (double)a->min_x - (double)b->max_x, east = (double)b->min_x - (double)a->max_x;
+    double north = (double)a->min_z - (double)b->max_z, south = (double)b->min_z - (double)a->max_z;
+    double x = maths_max(west, east) + margins_m, z = maths_max(north, south) + margins_m;
+    return x > 0.0 && z > 0.0 && x * x + z * z > margins_m * margins_m;
+}
+
 /* Returns true if no bound of the first box is beyond that of the second. */
 static inline bool pair_filter_box_within(const struct path_box *inner,
                                           const struct path_box *outer)
