@@ -4,6 +4,7 @@
 #include "collider/solver/overlap_shift.h"
 #include "world/entity/free_rotation.h"
 #include "world/entity/mass_properties.h"
+#include "world/entity/persistent_contact.h"
 #include "world/params.h"
 #include "world/runtime/reserve.h"
 #include "world/world.h"
@@ -47,6 +48,16 @@ bool drift_guard_drifts(const struct response_context *context, uint32_t row)
     const struct entities *e = &context->next->entities;
     return e->state[row] == ENTITY_ACTIVE && e->behaviour[row] == BEHAVIOUR_HOLD &&
            context->world->kinds[e->kind[row]].domain == DOMAIN_AIR;
+}
+
+bool drift_guard_heeds(const struct response_context *context,
+                       const struct persistent_contact *contact)
+{
+    const struct entities *e = &context->next->entities;
+    uint32_t a = contact->a_row, b = contact->b_row;
+    bool fixed = contact->b_id & PERSISTENT_CONTACT_FIXED;
+    return entities_alive(e, a, contact->a_id) && (fixed || entities_alive(e, b, contact->b_id)) &&
+           (drift_guard_drifts(context, a) || (!fixed && drift_guard_drifts(context, b)));
 }
 
 static struct mass_properties mass_of(const struct response_context *context, uint32_t row)

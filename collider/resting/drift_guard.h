@@ -26,6 +26,12 @@ void drift_guard_free(struct drift_guard *drift);
 /* Returns true for an aircraft that nobody steers: it only holds its course. */
 bool drift_guard_drifts(const struct response_context *context, uint32_t row);
 
+/* Returns true if one of the bodies of a contact drifts, and both are still there. They turn freely
+ * past each other, and may get into each other where they do not close by their velocities: that is
+ * no impact. */
+bool drift_guard_heeds(const struct response_context *context,
+                       const struct persistent_contact *contact);
+
 /* Puts a row where it was at an earlier time of its path: at this share of what its last impact has
  * left of the frame. Below 0: where it began the frame. It keeps its velocity and the angular
  * momentum of its rotation. */

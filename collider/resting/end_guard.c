@@ -395,15 +395,19 @@ static void add_pair(struct end_guard *guard, const struct contact_queue *contac
     guard->pair[guard->pair_count++] = (struct guard_pair){.pair = index};
 }
 
-/* Returns true if the row is guarded. Only such rows are posed. */
-static bool is_posed(const struct end_guard *guard, const struct response_context *context,
-                     uint32_t row)
+/* Returns true if both sides of a pair are guarded, or one is and the other a wall. Only rows that
+ * are guarded are posed. Those that are so deep that they part as capsules are left out. */
+static bool is_guarded(const struct end_guard *guard, const struct response_context *context,
+                       uint32_t index)
 {
-    return guard->posed[row] || guarded(context, row);
+    uint32_t a = context->contacts->pair[index].a, b = context->contacts->pair[index].b;
+    return !(context->contacts->marks[index] & CONTACT_CAPSULES) &&
+           (guard->posed[a] || guarded(context, a)) &&
+           (b & PAIR_FIXED ? contact_groups_is_wall(context, b & ~PAIR_FIXED)
+                           : guard->posed[b] || guarded(context, b));
 }
 
-/* Lists the row's pairs, except those that are so deep that they part as capsules. A pair of two
- * rows that are looked at is listed once. */
+/* Lists the row's pairs. A pair of two rows that are looked at is listed once. */
 static void add_pairs_of(struct end_guard *guard, const struct response_context *context,
                          uint32_t row)
 {
@@ -412,42 +416,26 @@ static void add_pairs_of(struct end_guard *guard, const struct response_context 
         uint32_t index = contacts->link[link - 1].pair;
         const struct pair *pair = &contacts->pair[index];
         uint32_t other = pair->a == row ? pair->b : pair->a;
-        bool fixed = other & PAIR_FIXED;
-        if (contacts->marks[index] & CONTACT_CAPSULES)
-            continue;
-        if (fixed ? !contact_groups_is_wall(context, other & ~PAIR_FIXED)
-                  : (guard->listed[other] && other < row) || !is_posed(guard, context, other))
-            continue;
-        add_pair(guard, contacts, index);
+        bool later = !(other & PAIR_FIXED) && guard->listed[other] && other < row;
+        if (!later && is_guarded(guard, context, index))
+            add_pair(guard, contacts, index);
     }
 }
 
-/* Lists the same pairs as add_pairs_of() for all rows that are looked at, in the order of the
- * queue: where most rows are looked at, that costs less than the list of each. */
-static void add_all_pairs(struct end_guard *guard, const struct response_context *context)
-{
-    const struct contact_queue *contacts = context->contacts;
-    for (uint32_t i = 0; i < contacts->pair_count; i++) {
-        uint32_t a = contacts->pair[i].a, b = contacts->pair[i].b;
-        bool fixed = b & PAIR_FIXED;
-        if (contacts->marks[i] & CONTACT_CAPSULES ||
-            !(guard->listed[a] || (!fixed && guard->listed[b])) ||
-            (fixed && !contact_groups_is_wall(context, b & ~PAIR_FIXED)) ||
-            !is_posed(guard, context, a) || !(fixed || is_posed(guard, context, b)))
-            continue;
-        add_pair(guard, contacts, i);
-    }
-}
-
-/* Lists the pairs of all rows that are looked at. */
+/* Lists the pairs of all rows that are looked at. Where these are most, to go through the queue
+ * costs less than the list of each. */
 static void add_pairs(struct end_guard *guard, const struct response_context *context)
 {
-    if (guard->posed_count == 0 &&
-        context->contacts->pair_count <= MOST_ROWS_PAIRS * (uint64_t)guard->count) {
-        add_all_pairs(guard, context);
-        return;
+    const struct contact_queue *contacts = context->contacts;
+    bool all =
+        guard->posed_count == 0 && contacts->pair_count <= MOST_ROWS_PAIRS * (uint64_t)guard->count;
+    for (uint32_t i = 0; all && i < contacts->pair_count; i++) {
+        uint32_t a = contacts->pair[i].a, b = contacts->pair[i].b;
+        if ((guard->listed[a] || (!(b & PAIR_FIXED) && guard->listed[b])) &&
+            is_guarded(guard, context, i))
+            add_pair(guard, contacts, i);
     }
-    for (uint32_t i = 0; i < guard->count; i++) {
+    for (uint32_t i = 0; !all && i < guard->count; i++) {
         if (guarded(context, guard->row[i]))
             add_pairs_of(guard, context, guard->row[i]);
     }
@@ -630,40 +618,17 @@ static void look_at_met(struct end_guard *guard, const struct response_context *
 }
 
 /* Lists the aircraft that nobody steers and that touched another body a frame ago, and those
- * bodies. They turn freely past each other, and may get into each other where they do not close by
- * their velocities: that is no impact. */
+ * bodies. */
 static void look_at_drifting(struct end_guard *guard, const struct response_context *context)
 {
-    const struct entities *e = &context->next->entities;
     const struct state *committed = context->motion->committed;
     for (uint32_t i = 0; i < committed->head->contact_count; i++) {
         const struct persistent_contact *contact = &committed->contacts[i];
-        uint32_t a = contact->a_row, b = contact->b_row;
-        bool fixed = contact->b_id & PERSISTENT_CONTACT_FIXED;
-        if (!entities_alive(e, a, contact->a_id) ||
-            !(fixed || entities_alive(e, b, contact->b_id)) ||
-            !(drift_guard_drifts(context, a) || (!fixed && drift_guard_drifts(context, b))))
+        if (!drift_guard_heeds(context, contact))
             continue;
-        look_at(guard, a);
-        if (!fixed)
-            look_at(guard, b);
-    }
-}
-
-/* Marks the contacts that have kept a row where it began the frame. */
-static void mark_holding(const struct end_guard *guard, struct response_context *context,
-                         uint32_t row)
-{
-    struct contact_queue *contacts = context->contacts;
-    if (guard->sent_back[row] != SENT_BACK_MOST || !held_rest_ended(context, row))
-        return;
-    for (uint32_t link = contacts->head[row]; link != 0; link = contacts->link[link - 1].next) {
-        uint32_t index = contacts->link[link - 1].pair;
-        const struct pair *pair = &contacts->pair[index];
-        uint32_t other = pair->a == row ? pair->b : pair->a;
-        if (contacts->marks[index] & CONTACT_RESTS &&
-            (other & PAIR_FIXED || held_rest_ended(context, other)))
-            contacts->marks[index] |= CONTACT_HOLDS;
+        look_at(guard, contact->a_row);
+        if (!(contact->b_id & PERSISTENT_CONTACT_FIXED))
+            look_at(guard, contact->b_row);
     }
 }
 
@@ -811,8 +776,10 @@ void end_guard_run(struct end_guard *guard, const struct resting *resting,
     while (guard->count > 0)
         run_round(guard, context);
     draw_all_back(guard, resting, context);
-    for (uint32_t i = 0; i < guard->touched_count; i++)
-        mark_holding(guard, context, guard->touched[i]);
+    for (uint32_t i = 0; i < guard->touched_count; i++) {
+        if (guard->sent_back[guard->touched[i]] == SENT_BACK_MOST)
+            held_rest_mark(context, guard->touched[i]);
+    }
     for (uint32_t i = 0; i < guard->touched_count; i++) {
         uint32_t row = guard->touched[i];
         if (guard->sent_back[row] == SENT_BACK_MOST && drift_guard_drifts(context, row))

@@ -91,3 +91,18 @@ void held_rest_put_back(struct response_context *context, uint32_t row)
                    (struct vec3){w->spin_x[row], w->spin_y[row], w->spin_z[row]});
     body_motion_compute(context->motion, row);
 }
+
+void held_rest_mark(struct response_context *context, uint32_t row)
+{
+    struct contact_queue *contacts = context->contacts;
+    if (!held_rest_ended(context, row))
+        return;
+    for (uint32_t link = contacts->head[row]; link != 0; link = contacts->link[link - 1].next) {
+        uint32_t index = contacts->link[link - 1].pair;
+        const struct pair *pair = &contacts->pair[index];
+        uint32_t other = pair->a == row ? pair->b : pair->a;
+        if (contacts->marks[index] & CONTACT_RESTS &&
+            (other & PAIR_FIXED || held_rest_ended(context, other)))
+            contacts->marks[index] |= CONTACT_HOLDS;
+    }
+}

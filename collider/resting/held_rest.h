@@ -30,4 +30,7 @@ void held_rest_let_go(const struct response_context *context);
  * the pose that it had, it stays on them. */
 void held_rest_keep_springs(struct response_context *context, uint32_t row);
 
+/* Marks the contacts that have kept a row where it began the frame, with CONTACT_HOLDS. */
+void held_rest_mark(struct response_context *context, uint32_t row);
+
 #endif
