@@ -67,6 +67,7 @@ struct list {
 /* Computing, sleeping, logging, ending and aborting. */
 static const struct rule computing[] = {
     ANY(futex),                     /* doorbells, locks, workers, the readers' wait */
+    ANY(sched_yield),               /* workers, where the processor may be needed */
     ANY(clock_nanosleep),           /* waits by the clock */
     ANY(clock_gettime),             /* where the clock cannot be read without a call */
     ANY(restart_syscall),           /* a wait continues after SIGSTOP and SIGCONT */
@@ -100,8 +101,8 @@ static const struct rule growing[] = {
 /* The address sanitizer, also for its report. */
 #ifdef SANDBOX_SANITIZED
 static const struct rule sanitizing[] = {
-    ANY(openat), ANY(read),     ANY(lseek),       ANY(readlink),    ANY(fstat),     ANY(newfstatat),
-    ANY(mremap), ANY(mprotect), ANY(sched_yield), ANY(sigaltstack), ANY(prlimit64),
+    ANY(openat),     ANY(read),   ANY(lseek),    ANY(readlink),    ANY(fstat),
+    ANY(newfstatat), ANY(mremap), ANY(mprotect), ANY(sigaltstack), ANY(prlimit64),
 };
 #endif
 
@@ -137,7 +138,6 @@ static const struct rule drawing[] = {
     ANY(flock),
     ANY(poll),
     ANY(ppoll),
-    ANY(sched_yield),
     WITH(fcntl, 1, F_DUPFD_CLOEXEC),
     {SCMP_SYS(ioctl), 1, {BITS(1, IOCTL_KIND, IOCTL_DRM)}},
     {SCMP_SYS(ioctl), 1, {BITS(1, IOCTL_KIND, IOCTL_NVIDIA)}},
