@@ -158,6 +158,18 @@ static double bank_room(const struct step_context *context, uint32_t i)
     return maths_clamp(room / half, LEAST_BANK, HOVER_BANK);
 }
 
+static struct climb_objects objects_of(const struct step_context *context)
+{
+    const struct world *world = context->world;
+    return (struct climb_objects){
+        .fixed = world->fixed,
+        .reach_start = world->reach_start,
+        .reach = world->reach,
+        .kinds = world->kinds,
+        .damage = context->committed->fixed_damage,
+    };
+}
+
 static struct climb_ahead look_ahead(const struct step_context *context, uint32_t i,
                                      const struct desired_motion *desired, double bank)
 {
@@ -188,9 +200,10 @@ static struct climb_ahead look_ahead(const struct step_context *context, uint32_
     };
 }
 
-/* It rises over what is ahead, on the way that it has and on the one that it turns to, and is no
- * faster than it can. Where the turn leads over ground that is too high for its speed it holds its
- * heading and slows down first: the slower it is, the less way the turn needs. */
+/* It rises over what is ahead, trees and buildings too, on the way that it has and on the one that
+ * it turns to, and is no faster than it can. Where the turn leads over ground that is too high for
+ * its speed it holds its heading and slows down first: the slower it is, the less way the turn
+ * needs. */
 void terrain_following_hover(const struct step_context *context, uint32_t i,
                              struct desired_motion *desired)
 {
@@ -200,7 +213,9 @@ void terrain_following_hover(const struct step_context *context, uint32_t i,
     if (!(desired->altitude_m > 0.0)) /* it sets down */
         return;
     const double bank = bank_room(context, i);
+    const struct climb_objects objects = objects_of(context);
     struct climb_ahead ahead = look_ahead(context, i, desired, bank);
+    ahead.objects = &objects;
     double astern = desired->speed_mps < 0.0 ? PI : 0.0;
     struct climb_need need = climb_ahead_need(terrain, &ahead);
     ahead.off_rad = maths_wrap_half(desired->heading_rad + astern - ahead.heading_rad);

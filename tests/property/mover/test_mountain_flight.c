@@ -1,5 +1,6 @@
-/* Aircraft of agents and scripts fly over the White Mountains, and none of them strikes the ground
- * or what stands on it. SEED=n begins with another seed, SEEDS=n runs so many of each. */
+/* Aircraft of agents and scripts fly over the White Mountains, helicopters also over woods, and
+ * none of them strikes the ground or what stands on it. SEED=n begins with another seed, SEEDS=n
+ * runs so many of each. */
 #include "tests/support/fixture.h"
 #include "tests/support/steps.h"
 #include "world/world.h"
@@ -158,22 +159,20 @@ static void test_scripted_jets_follow_the_ground(void **state)
     assert_int_equal(struck, 0);
 }
 
-/* As low and as fast as they are told, where the ground lets them: they rise and slow down before
- * slopes of up to 45 degrees. */
-static void test_scripted_helicopters_stay_off_slopes(void **state)
+/* Lets helicopters of scripts fly low over the ground of an open world. Returns how many struck
+ * something. */
+static uint32_t fly_low(uint64_t seed, void open(uint64_t seed, const char *groups))
 {
     static double over[HOVERING * SECONDS];
     static char groups[16000];
-    uint64_t seed = fixture_seed(1);
     uint32_t struck = 0;
-    (void)state;
     for (uint64_t n = 0; n < seeds(); n++) {
         uint64_t random = seed + n;
         uint32_t count = 0;
         bool damaged[ROWS + 1] = {false};
         const struct scripted low = {"helicopter", HOVERING, 8000.0, 20.0, 75.0, 5.0, 20.0};
         write_scripts(groups, sizeof groups, &low, &random);
-        open_mountains(seed + n, groups);
+        open(seed + n, groups);
         for (uint32_t second = 0; second < SECONDS; second++) {
             fixture_continue(&f, HZ);
             struck += crashes(damaged);
@@ -189,7 +188,32 @@ static void test_scripted_helicopters_stay_off_slopes(void **state)
         assert_true(over[count / 2] < 50.0);
         fixture_close(&f);
     }
-    assert_int_equal(struck, 0);
+    return struck;
+}
+
+/* As low and as fast as they are told, where the ground lets them: they rise and slow down before
+ * slopes of up to 45 degrees. */
+static void test_scripted_helicopters_stay_off_slopes(void **state)
+{
+    (void)state;
+    assert_int_equal(fly_low(fixture_seed(1), open_mountains), 0);
+}
+
+/* Woods of pines, roads with poles, and buildings. */
+static void open_woods(uint64_t seed, const char *groups)
+{
+    static char text[16384];
+    (void)snprintf(text, sizeof text,
+                   "world = { seed = %u; capacity = 256; hz = %u.0; };\n"
+                   "terrain = { source = \"generated\"; }; objects = { source = \"table1\"; };\n%s",
+                   (unsigned)(seed & 0xffff), HZ, groups);
+    fixture_open(&f, text);
+}
+
+static void test_scripted_helicopters_stay_off_trees(void **state)
+{
+    (void)state;
+    assert_int_equal(fly_low(fixture_seed(1), open_woods), 0);
 }
 
 /* Waves of ground, of which a tenth is steeper than 60 degrees. */
@@ -235,6 +259,7 @@ int main(void)
         cmocka_unit_test(test_agents_do_not_fly_into_mountains),
         cmocka_unit_test(test_scripted_jets_follow_the_ground),
         cmocka_unit_test(test_scripted_helicopters_stay_off_slopes),
+        cmocka_unit_test(test_scripted_helicopters_stay_off_trees),
         cmocka_unit_test(test_agents_do_not_fly_into_steep_slopes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,11 +1,16 @@
 /* The climb and the speed that the ground ahead asks for: on the level, before a wall, at its foot,
- * over a crest, across a slope, and on a way that turns. */
+ * over a crest, across a slope, and on a way that turns; and those that a tree asks for. */
 #include "world/terrain/climb_ahead.h"
+
+#include "world/entity/entity.h"
+#include "world/entity/kind.h"
+#include "world/terrain/fixed_index.h"
 
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
 #include <stdint.h>
+#include <stdlib.h>
 
 #include <cmocka.h>
 
@@ -137,6 +142,82 @@ static void test_the_change_of_climb_makes_up_for_its_delay(void **state)
     assert_true(climb_ahead_change(-10.0, 5.0, 4.0, 1.0) == 30.0); /* there is no time for it */
 }
 
+/* A tree of 15 m with a radius of 4 m, beside the middle. */
+struct lone_tree {
+    struct fixed_object tree;
+    struct kind kind;
+    uint8_t damage;
+    uint32_t *start, *items;
+    struct climb_objects objects;
+};
+
+static void plant(struct lone_tree *lone, double south_m)
+{
+    raise(0.0, 0.0);
+    *lone = (struct lone_tree){
+        .tree = {.x = MIDDLE_M, .z = 2000.0 + south_m, .radius_m = 4.0f, .height_m = 15.0f},
+        .kind = {.radius_m = 4.0}};
+    assert_int_equal(
+        fixed_index_build(&ground.squares, &lone->tree, 1, &lone->kind, &lone->start, &lone->items),
+        0);
+    lone->objects =
+        (struct climb_objects){&lone->tree, lone->start, lone->items, &lone->kind, &lone->damage};
+}
+
+static struct climb_need need_before(const struct lone_tree *lone, struct climb_ahead ahead)
+{
+    ahead.objects = &lone->objects;
+    return climb_ahead_need(&ground, &ahead);
+}
+
+static void cut(struct lone_tree *lone)
+{
+    free(lone->start);
+    free(lone->items);
+}
+
+static void test_a_tree_is_climbed_or_waited_for(void **state)
+{
+    struct lone_tree lone;
+    (void)state;
+    plant(&lone, 5.0);
+    struct climb_need need = need_before(&lone, fly(500.0, 60.0));
+    assert_true(need.climb_mps > 0.5 && need.climb_mps < 5.0 && need.speed_mps > 60.0);
+    need = need_before(&lone, fly(60.0, 60.0));
+    assert_true(need.climb_mps > 10.0 && need.speed_mps < 40.0);
+    assert_true(need_before(&lone, fly(-100.0, 60.0)).climb_mps < 0.0); /* it is past the tree */
+    struct climb_ahead high = fly(60.0, 60.0);
+    high.at.y = 22.0;
+    assert_true(need_before(&lone, high).climb_mps < 0.0);
+    lone.damage = DAMAGE_HIGH; /* the tree lies on the ground */
+    assert_true(need_before(&lone, fly(60.0, 60.0)).climb_mps < 0.0);
+    cut(&lone);
+}
+
+/* It minds what its way comes near to, and what it touches when it turns where it is. */
+static void test_a_tree_beside_the_way_is_passed(void **state)
+{
+    struct lone_tree lone;
+    (void)state;
+    plant(&lone, 16.5);
+    assert_true(need_before(&lone, fly(60.0, 60.0)).climb_mps < 0.0);
+    assert_true(need_before(&lone, fly(200.0, 60.0)).climb_mps > 0.0); /* ways are not held */
+    struct climb_ahead turning = fly(100.0, 20.0);
+    turning.off_rad = HALF_PI;
+    turning.radius_m = 100.0;
+    assert_true(need_before(&lone, turning).climb_mps < 0.0);
+    cut(&lone);
+    plant(&lone, 12.5);
+    struct climb_ahead stands = fly(0.0, 0.0);
+    stands.heading_rad = 0.0; /* the tree is behind its tail */
+    stands.half_length_m = 6.0;
+    assert_true(need_before(&lone, stands).climb_mps < 0.0);
+    stands.half_length_m = 7.0;
+    assert_true(need_before(&lone, stands).climb_mps > 0.0);
+    assert_true(need_before(&lone, stands).speed_mps == 0.0);
+    cut(&lone);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -146,6 +227,8 @@ int main(void)
         cmocka_unit_test(test_what_is_under_its_tail_counts),
         cmocka_unit_test(test_a_slope_rises_to_the_side),
         cmocka_unit_test(test_the_way_may_turn_before_a_wall),
+        cmocka_unit_test(test_a_tree_is_climbed_or_waited_for),
+        cmocka_unit_test(test_a_tree_beside_the_way_is_passed),
         cmocka_unit_test(test_the_change_of_climb_makes_up_for_its_delay),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
