@@ -2,6 +2,7 @@
 #include "mover/agent/goal.h"
 
 #include "mover/agent/fire_control.h"
+#include "mover/agent/landing_place.h"
 #include "mover/agent/mission_route.h"
 #include "mover/agent/ship_course.h"
 #include "mover/agent/script_player.h"
@@ -13,18 +14,15 @@
 #include "world/terrain/gridsquare.h"
 #include "world/world.h"
 
-#define ARRIVED_M   25.0
-#define HOME_M      150.0               /* a base has room for many vehicles */
-#define HOME_PLACES 64u                 /* of helicopters at their base */
-#define HOME_ROOM_M 40.0                /* their spiral: places are about 70 m apart */
-#define GOLDEN_RAD  2.39996322972865332 /* between two places of the spiral */
-#define FLEE_M      2000.0
-#define DETOUR_M    400.0 /* around what blocks the path to the base */
-#define GOAL_DRAWS  8
-#define HULL_SHARE  0.4  /* of the height: the top of the hull, below the turret */
-#define GUN_SHARE   0.9  /* of the height: the sight of the gun */
-#define NEARER_M    10.0 /* steps in which it looks for the nearest place on the way */
-#define IN_PLACE_M  3.0  /* near enough to a firing position */
+#define ARRIVED_M  25.0
+#define HOME_M     150.0 /* a base has room for many vehicles */
+#define FLEE_M     2000.0
+#define DETOUR_M   400.0 /* around what blocks the path to the base */
+#define GOAL_DRAWS 8
+#define HULL_SHARE 0.4  /* of the height: the top of the hull, below the turret */
+#define GUN_SHARE  0.9  /* of the height: the sight of the gun */
+#define NEARER_M   10.0 /* steps in which it looks for the nearest place on the way */
+#define IN_PLACE_M 3.0  /* near enough to a firing position */
 
 static double unit(const struct step_context *context, uint32_t i, enum random_purpose purpose)
 {
@@ -223,18 +221,15 @@ void goal_target(const struct step_context *context, uint32_t i, uint32_t row, u
 
 /* --- home --------------------------------------------------------------------------------------*/
 
-/* Its place at its force's base. Those of helicopters are on a spiral, each with about the same
- * room. */
+/* Its place at its force's base. */
 static void base_place(const struct step_context *context, uint32_t i, double *x, double *z)
 {
     const struct entities *m = context->m;
-    const struct kind *kind = &context->world->kinds[m->kind[i]];
     const struct force_base *base = &context->world->params->base[m->force[i] % FORCE_COUNT];
-    double sine, cosine, number = (double)(m->id[i] % HOME_PLACES);
-    double away = kind_hovers(kind) ? HOME_ROOM_M * sqrt(number) : 0.0;
-    maths_sincos(GOLDEN_RAD * number, &sine, &cosine);
-    *x = world_clamp(context->world, base->x + away * sine);
-    *z = world_clamp(context->world, base->z - away * cosine);
+    *x = base->x;
+    *z = base->z;
+    if (kind_hovers(&context->world->kinds[m->kind[i]]))
+        landing_place_find(context, i, x, z);
 }
 
 void goal_base(const struct step_context *context, uint32_t i)

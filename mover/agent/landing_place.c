@@ -1,4 +1,4 @@
-/* Slope, water, objects and vehicles under a helicopter. */
+/* Places on a spiral; and slope, water, objects and vehicles under a helicopter. */
 #include "mover/agent/landing_place.h"
 
 #include "mover/motion/kinematics.h"
@@ -10,6 +10,10 @@
 #define SLOPE_MOST 0.17 /* tangent of 10 degrees; from 20 degrees on it would crash */
 #define GAP_M      2.0  /* to what stands around */
 #define POINTS     4    /* of the ground around the middle */
+#define PLACES     64u  /* of a turn: ids that differ by this many share their first place */
+#define TURNS      4u   /* of places from which it chooses */
+#define ROOM_M     40.0 /* of the spiral: places are about 70 m apart */
+#define GOLDEN_RAD 2.39996322972865332 /* between two places of the spiral */
 
 /* Returns true if the ground is dry and nearly level within reach_m. */
 static bool is_level(const struct step_context *context, double x, double z, double reach_m)
@@ -51,25 +55,57 @@ static bool has_objects(const struct step_context *context, double x, double z, 
     return false;
 }
 
-/* Returns true if another vehicle is within reach_m, in the air or on the ground. */
-static bool has_vehicles(const struct step_context *context, uint32_t i, double reach_m)
+/* How much room row i needs around its middle [m]. */
+static double reach_of(const struct step_context *context, uint32_t i)
 {
-    const struct entities *m = context->m;
+    return context->world->kinds[context->m->kind[i]].radius_m + GAP_M;
+}
+
+/* Returns true if a vehicle other than row i is within reach_m of a point, on the ground or, of the
+ * rows before `before`, in the air. */
+static bool has_vehicles(const struct step_context *context, uint32_t i, double x, double z,
+                         uint32_t before)
+{
+    const struct entities *w = &context->committed->entities;
     const struct neighbour_index_entry *entry;
-    struct neighbour_query query = neighbour_query_begin(context->neighbours, NEIGHBOUR_INDEX_ALL,
-                                                         m->x[i], m->z[i], 2.0 * reach_m);
+    const double reach_m = reach_of(context, i);
+    struct neighbour_query query =
+        neighbour_query_begin(context->neighbours, NEIGHBOUR_INDEX_ALL, x, z, 2.0 * reach_m);
     while ((entry = neighbour_query_next(&query)) != NULL) {
-        double most = reach_m + context->world->kinds[entry->kind].radius_m;
-        if (entry->row != i && neighbour_index_within(entry, m->x[i], m->z[i], most * most))
+        const struct kind *kind = &context->world->kinds[entry->kind];
+        double most = reach_m + kind->radius_m;
+        bool flies = kind->domain == DOMAIN_AIR && w->state[entry->row] == ENTITY_ACTIVE &&
+                     !(w->flags[entry->row] & ENTITY_FLAG_LANDED);
+        if (entry->row != i && (!flies || entry->row < before) &&
+            neighbour_index_within(entry, x, z, most * most))
             return true;
     }
     return false;
 }
 
+/* Returns a place of the spiral about a point. */
+static struct vec3 place_at(const struct world *world, double x, double z, uint32_t number)
+{
+    double sine, cosine, away = ROOM_M * sqrt((double)number);
+    maths_sincos(GOLDEN_RAD * (double)number, &sine, &cosine);
+    return (struct vec3){world_clamp(world, x + away * sine), 0.0,
+                         world_clamp(world, z - away * cosine)};
+}
+
+void landing_place_find(const struct step_context *context, uint32_t i, double *x, double *z)
+{
+    const uint32_t number = context->m->id[i] % PLACES;
+    struct vec3 place = place_at(context->world, *x, *z, number);
+    for (uint32_t turn = 1; turn < TURNS && has_vehicles(context, i, place.x, place.z, i); turn++)
+        place = place_at(context->world, *x, *z, number + turn * PLACES);
+    *x = place.x;
+    *z = place.z;
+}
+
 bool landing_place_is_clear(const struct step_context *context, uint32_t i)
 {
     const struct entities *m = context->m;
-    double reach_m = context->world->kinds[m->kind[i]].radius_m + GAP_M;
-    return is_level(context, m->x[i], m->z[i], reach_m) &&
-           !has_objects(context, m->x[i], m->z[i], reach_m) && !has_vehicles(context, i, reach_m);
+    double x = m->x[i], z = m->z[i], reach_m = reach_of(context, i);
+    return is_level(context, x, z, reach_m) && !has_objects(context, x, z, reach_m) &&
+           !has_vehicles(context, i, x, z, UINT32_MAX);
 }

@@ -12,8 +12,9 @@
 
 #include <cmocka.h>
 
-#define HZ    20
-#define COUNT 4u
+#define HZ     20
+#define COUNT  4u
+#define SHARED 64u /* ids that differ by this many have the same first place */
 
 static struct fixture f;
 
@@ -37,32 +38,34 @@ struct stay {
     double away_m; /* of one that stood, from the base at most */
 };
 
-/* Lets them fire all they have, and waits until they patrol again. */
-static struct stay watch(void)
+/* Lets the helicopters in the rows 0, step ... fire all they have, and waits until they patrol
+ * again. */
+static struct stay watch(uint32_t step)
 {
     struct stay stay = {0};
     bool stood[COUNT] = {false}, back[COUNT] = {false};
-    for (uint32_t i = 0; i < COUNT; i++)
-        steps_rows(&f).rounds[i] = 0;
+    for (uint32_t n = 0; n < COUNT; n++)
+        steps_rows(&f).rounds[n * step] = 0;
     for (int frame = 0; frame < 260 * HZ; frame++) {
         fixture_run(&f, 1);
         struct entities e = steps_rows(&f);
-        for (uint32_t i = 0; i < COUNT; i++) {
+        for (uint32_t n = 0; n < COUNT; n++) {
+            uint32_t i = n * step;
             assert_int_equal(e.state[i], ENTITY_ACTIVE);
             assert_int_equal(e.damage[i], DAMAGE_NONE);
             if (e.flags[i] & ENTITY_FLAG_LANDED && steps_speed(&f, i) == 0.0) {
                 double dx = e.x[i] - 25000.0, dz = e.z[i] - 25000.0;
-                stood[i] = true;
+                stood[n] = true;
                 stay.away_m = maths_max(stay.away_m, sqrt(dx * dx + dz * dz));
             }
-            back[i] = e.behaviour[i] == BEHAVIOUR_PATROL && e.rounds[i] > 0 &&
+            back[n] = e.behaviour[i] == BEHAVIOUR_PATROL && e.rounds[i] > 0 &&
                       !(e.flags[i] & ENTITY_FLAG_LANDED) &&
                       e.y[i] > steps_ground_at(&f, e.x[i], e.z[i]) + 20.0;
         }
     }
-    for (uint32_t i = 0; i < COUNT; i++) {
-        stay.landed += stood[i];
-        stay.rearmed += back[i];
+    for (uint32_t n = 0; n < COUNT; n++) {
+        stay.landed += stood[n];
+        stay.rearmed += back[n];
     }
     return stay;
 }
@@ -71,7 +74,7 @@ static void test_they_land_at_their_base_and_take_off(void **state)
 {
     (void)state;
     open_with("");
-    struct stay stay = watch();
+    struct stay stay = watch(1);
     print_message("%u of %u landed, %.0f m from the base at most; %u are on patrol again\n",
                   stay.landed, COUNT, stay.away_m, stay.rearmed);
     assert_true(stay.landed == COUNT && stay.rearmed == COUNT && stay.away_m < 150.0);
@@ -89,8 +92,32 @@ static void test_they_hover_where_trees_stand(void **state)
                            24905 + n % 20 * 10, 24905 + n / 20 * 10);
     snprintf(objects + length, sizeof objects - (size_t)length, ");");
     open_with(objects);
-    struct stay stay = watch();
+    struct stay stay = watch(1);
     assert_true(stay.landed == 0 && stay.rearmed == COUNT);
+}
+
+/* Before, the first took the place, and the others were rearmed in the air over it. */
+static void test_they_do_not_wait_for_a_place_that_they_share(void **state)
+{
+    static const char group[] =
+        "%s{ kind = \"helicopter\"; force = \"blue\"; engage = \"free\"; behaviour = \"patrol\";"
+        "   area = [26000.0, 24500.0, 27000.0, 25500.0]; },"
+        " { kind = \"truck\"; count = 63; behaviour = \"idle\"; area = [1000.0, 1000.0, 5000.0, "
+        "5000.0]; }";
+    char text[1600];
+    int length =
+        snprintf(text, sizeof text,
+                 "world = { seed = 5; capacity = 512; hz = 20.0; };"
+                 "collision = { shape = \"model\"; };"
+                 "bases = ( { force = \"blue\"; at = [25000.0, 25000.0]; } ); vehicles = (");
+    (void)state;
+    for (uint32_t n = 0; n < COUNT; n++)
+        length += snprintf(text + length, sizeof text - (size_t)length, group, n ? ", " : "");
+    snprintf(text + length, sizeof text - (size_t)length, ");");
+    fixture_open(&f, text);
+    struct stay stay = watch(SHARED);
+    print_message("%u of %u landed\n", stay.landed, COUNT);
+    assert_true(stay.landed == COUNT && stay.rearmed == COUNT);
 }
 
 static bool clear_at(double slope, const char *below)
@@ -127,6 +154,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         TEST(test_they_land_at_their_base_and_take_off),
         TEST(test_they_hover_where_trees_stand),
+        TEST(test_they_do_not_wait_for_a_place_that_they_share),
         TEST(test_a_place_is_level_dry_and_empty),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
