@@ -10,6 +10,7 @@
 #include "mover/weapon/turret.h"
 #include "world/entity/event.h"
 #include "world/params.h"
+#include "world/start_height.h"
 #include "world/state.h"
 #include "world/terrain/gridsquare.h"
 #include "world/terrain/rest_pose.h"
@@ -200,6 +201,17 @@ static void set_on_ground(const struct serial_context *context, uint32_t row)
     table_set_roll(&context->writer, row, pose.roll_rad);
 }
 
+/* Returns the height over the ground at which an aircraft is spawned. */
+static double height_of(const struct world *world, const struct kind *kind,
+                        const struct command *command)
+{
+    const double *v = command->value;
+    double altitude = v[2] > 0.0 ? v[2] : kind->cruise_altitude_m;
+    const struct start_flight flight = {v[0], v[1], v[3], v[4], altitude};
+    bool holds = command->amount == BEHAVIOUR_HOLD;
+    return kind_hovers(kind) || holds ? altitude : start_height(&world->terrain, kind, &flight);
+}
+
 static enum command_result spawn(struct serial_context *context, const struct command *command,
                                  uint32_t *entity)
 {
@@ -218,7 +230,7 @@ static enum command_result spawn(struct serial_context *context, const struct co
         return COMMAND_OUT_OF_RANGE;
     struct vec3 position = {v[0], kinematics_ground(context->step, v[0], v[1]), v[1]};
     if (kind->domain == DOMAIN_AIR)
-        position.y += v[2] > 0.0 ? v[2] : kind->cruise_altitude_m;
+        position.y += height_of(world, kind, command);
     if (crowded(context, position))
         return COMMAND_CANNOT;
     uint32_t row = spawn_entity(context, command->kind, (uint8_t)command->force);

@@ -1,6 +1,7 @@
 /* Asks the way ahead of a driven aircraft for the speed that it allows. */
 #include "world/pull_up.h"
 
+#include "world/entity/climb_limits.h"
 #include "world/entity/grounded.h"
 #include "world/entity/kind.h"
 #include "world/entity/mass_properties.h"
@@ -11,24 +12,8 @@
 #define AHEAD_M      40.0 /* and so far even when it is slow */
 #define GENTLE_MPS   3.7  /* a touch-down with this sink rate does no harm */
 #define SLOWEST_MPS  1.0
-#define HOVER_PULL   0.4  /* [g] of a helicopter */
-#define HOVER_BRAKE  3.4  /* [m/s2] */
-#define WING_BRAKE   0.1  /* an aeroplane does not stop */
-#define WING_SHARE   0.65 /* of the pull-up that its lift allows */
-#define WING_PULL    1.5  /* [g] of that at most */
-#define LEAST_PULL   0.05 /* [g] */
-#define TURN_SLOPE   0.1  /* of a bank that turns it */
-#define STEEPEST_RAD 1.4  /* a steeper bank counts as this one */
-
-/* Returns the acceleration [m/s2] by which it changes its climb. */
-static double pull_of(const struct kind *kind, double speed)
-{
-    if (kind_hovers(kind))
-        return HOVER_PULL * GRAVITY_MPS2;
-    double share = speed / maths_max(kind->min_speed_mps, SLOWEST_MPS);
-    double lift = maths_min(share * share, maths_max(kind->max_load, 1.0));
-    return GRAVITY_MPS2 * WING_SHARE * maths_clamp(lift - 1.0, LEAST_PULL, WING_PULL);
-}
+#define TURN_SLOPE   0.1 /* of a bank that turns it */
+#define STEEPEST_RAD 1.4 /* a steeper bank counts as this one */
 
 bool pull_up_of(const struct world *world, const struct entities *entities, uint32_t i)
 {
@@ -47,8 +32,8 @@ bool pull_up_of(const struct world *world, const struct entities *entities, uint
         .speed_mps = fast,
         .half_length_m = 0.5 * kind->length_m,
         .climb_mps = kind->climb_rate_mps,
-        .pull_mps2 = pull_of(kind, speed),
-        .brake_mps2 = kind_hovers(kind) ? HOVER_BRAKE : WING_BRAKE,
+        .pull_mps2 = climb_limits_pull(kind, speed),
+        .brake_mps2 = climb_limits_brake(kind),
         .late_s = REACT_S,
         .heading_rad = speed > SLOWEST_MPS ? maths_heading(entities->vx[i], entities->vz[i])
                                            : entities->heading[i],

@@ -83,9 +83,12 @@ static const struct key vehicle_keys[] = {
               .meaning = "The exact place of one vehicle or of a formation's leader: on water for "
                          "a ship, on land for a land vehicle. Without it the program finds a place "
                          "in the area that suits the kind."),
-    [VEHICLE_ALTITUDE] = NUMBER("altitude_m", V, altitude_m, 0, 20000, NULL, .unit = "m",
-                                .unset = "the kind's `cruise_altitude_m`",
-                                .meaning = "The height of an aircraft above the ground."),
+    [VEHICLE_ALTITUDE] =
+        NUMBER("altitude_m", V, altitude_m, 0, 20000, NULL, .unit = "m",
+               .unset = "the kind's `cruise_altitude_m`",
+               .meaning = "The height of an aircraft above the ground. An aeroplane that does "
+                          "not `hold` its course begins higher where the ground "
+                          "ahead rises faster than it can climb."),
     [VEHICLE_HEADING] =
         SCALED("heading_deg", V, heading_rad, -360, 360, RAD_PER_DEG, NULL, .unit = "degrees",
                .unset = "random", .meaning = "The heading, clockwise from north."),

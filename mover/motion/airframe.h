@@ -21,6 +21,7 @@
 #define JOLON_MOVER_MOTION_AIRFRAME_H
 
 #include "mover/motion/kinematics_simd.h"
+#include "world/entity/climb_limits.h"
 #include "world/entity/mass_properties.h"
 
 /* The drag of lift: with an aspect ratio of 2 to 3 the drag coefficient is CD0 + 0.2 CL^2, and the
@@ -52,7 +53,6 @@
 #define AIRFRAME_SPEED_S    1.0     /* and an aeroplane's speed the throttle */
 #define AIRFRAME_HOVER_S    0.7     /* and a helicopter's the stick */
 #define AIRFRAME_TURN_S     1.2     /* and the heading an agent's will */
-#define AIRFRAME_PULL       1.5     /* [g] over level flight, pulled up no harder */
 #define AIRFRAME_COLLECTIVE 0.6     /* [g] the same by a helicopter's power */
 
 /* The power of a helicopter, as shares of its weight times its top speed V. With u = v / V
@@ -197,7 +197,7 @@ static inline void airframe_lift(struct airframe *f, double dt_s)
     f->lift_most = SIMD_CHOOSE(f->aeroplane, lift, f->load);
     double lag_s = dt_s > AIRFRAME_CLIMB_S ? dt_s : AIRFRAME_CLIMB_S;
     f64x4 rise = (f->wanted_up_mps - f->up_mps) / lag_s;
-    f64x4 most = SIMD_CHOOSE(f->aeroplane, g * AIRFRAME_PULL, g * AIRFRAME_COLLECTIVE);
+    f64x4 most = SIMD_CHOOSE(f->aeroplane, g * CLIMB_LIMITS_PULL, g * AIRFRAME_COLLECTIVE);
     rise = SIMD_CLAMP(rise, lowest, most);
     airframe_govern(f, &rise, dt_s);
     /* The bank is limited by what it wants, so that the lift is there when it has levelled out. */
@@ -223,7 +223,7 @@ static inline void airframe_pull_out(const struct airframe *f, const f64x4 *squa
                                      const f64x4 *over, f64x4 *sink)
 {
     const f64x4 one = SIMD_EVERY(1.0), least = SIMD_EVERY(AIRFRAME_LEVELS);
-    const f64x4 hardest = SIMD_EVERY(AIRFRAME_PULL);
+    const f64x4 hardest = SIMD_EVERY(CLIMB_LIMITS_PULL);
     f64x4 stall = SIMD_MAX(f->stall_mps, one);
     f64x4 pull = (SIMD_MIN(*square / (stall * stall), f->load) - one) * AIRFRAME_PULL_OUT;
     pull = SIMD_CLAMP(pull, least, hardest);

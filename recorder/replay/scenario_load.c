@@ -61,4 +61,10 @@ void scenario_load_generate(const struct scenario *scenario, struct world_build 
         (void)fputs("\r\033[K", stderr);
     if (result != 0)
         die_refused("%s", error.text);
+    if (built->raised > 0)
+        (void)fprintf(
+            stderr,
+            "aeroplanes that begin higher than their altitude_m, because the ground ahead "
+            "rises faster than they can climb: %u\n",
+            built->raised);
 }

@@ -8,6 +8,7 @@
 #include "world/making/scenario_settings.h"
 #include "world/making/world_build.h"
 #include "world/maths/random.h"
+#include "world/start_height.h"
 #include "world/terrain/fixed_index.h"
 #include "world/making/road_routing.h"
 #include "world/making/script_build.h"
@@ -84,6 +85,24 @@ static void set_on_ground(const struct world_build *built, uint32_t slot)
     e->roll[slot] = pose.roll_rad;
 }
 
+/* Returns the height of a vehicle over the ground. An aeroplane that holds its course flies into
+ * what its author has put before it. */
+static double height_of(struct world_build *built, const struct scenario_group *group,
+                        const struct stand *stand, double speed_mps)
+{
+    const struct kind *kind = &built->scenario->kinds[group->kind];
+    const struct terrain terrain = world_build_terrain(built);
+    double altitude = group->floating ? group->altitude_m : kind->cruise_altitude_m;
+    if (kind->domain != DOMAIN_AIR)
+        return 0.0;
+    if (kind_hovers(kind) || group->behaviour == BEHAVIOUR_HOLD)
+        return altitude;
+    const struct start_flight flight = {stand->x, stand->z, stand->heading, speed_mps, altitude};
+    double height = start_height(&terrain, kind, &flight);
+    built->raised += height > altitude;
+    return height;
+}
+
 static void put_entity(const struct vehicle_placement *placement, uint32_t slot,
                        const struct stand *stand)
 {
@@ -92,7 +111,6 @@ static void put_entity(const struct vehicle_placement *placement, uint32_t slot,
     const struct kind *kind = &built->scenario->kinds[group->kind];
     struct terrain terrain = world_build_terrain(built);
     struct entities *e = &built->first;
-    double altitude = group->floating ? group->altitude_m : kind->cruise_altitude_m;
     double speed = group->moving ? group->speed_mps : kind->min_speed_mps;
     double sine, cosine;
     maths_sincos(stand->heading, &sine, &cosine);
@@ -109,8 +127,8 @@ static void put_entity(const struct vehicle_placement *placement, uint32_t slot,
     e->leg[slot] = stand->leg;
     e->x[slot] = stand->x;
     e->z[slot] = stand->z;
-    e->y[slot] = terrain_base_height(&terrain, stand->x, stand->z) +
-                 (kind->domain == DOMAIN_AIR ? altitude : 0.0);
+    e->y[slot] =
+        terrain_base_height(&terrain, stand->x, stand->z) + height_of(built, group, stand, speed);
     e->heading[slot] = stand->heading;
     if (kind->domain == DOMAIN_LAND)
         set_on_ground(built, slot);

@@ -46,6 +46,7 @@ struct world_build {
     struct entities first; /* frame 0's entities, rows 0 .. used - 1 */
     void *first_memory;
     uint32_t used;
+    uint32_t raised; /* aeroplanes that begin higher than the scenario says (start_height.h) */
 };
 
 /* 0, or -1 with error set: no room for the vehicles, an unknown name in

@@ -4,6 +4,7 @@
 #include "mover/context/cruise_start.h"
 #include "mover/motion/aircraft.h"
 #include "mover/motion/airframe.h"
+#include "world/entity/climb_limits.h"
 #include "world/terrain/climb_ahead.h"
 #include "world/terrain/gridsquare.h"
 #include "world/terrain/square_bounds.h"
@@ -16,8 +17,6 @@
 #define CLEAR_SHARE 0.5  /* of the height that it wants, over the ground ahead */
 #define STEEP_SHARE 0.35 /* of its speed: so fast it climbs and loses no speed that it needs */
 #define CLIMB_SHARE 0.8  /* and of its kind's rate of climb */
-#define PULL_SHARE  0.65 /* of the pull-up that its lift allows */
-#define LEAST_PULL  0.05 /* [g] */
 #define LEVEL_LOAD  1.5  /* [share of its lift] that it needs while it turns */
 #define LATER_SHARE 0.6  /* of the climb that it has: if it needs no more, it may climb later */
 
@@ -39,10 +38,7 @@ static struct climb_look begin(const struct step_context *context, uint32_t i,
     const struct kind *kind = &context->world->kinds[m->kind[i]];
     const double think_s = context->dt_s * (double)cruise_start_think_frames(context, i);
     double speed = sqrt(m->vx[i] * m->vx[i] + m->vz[i] * m->vz[i]);
-    double share = speed / maths_max(kind->min_speed_mps, 1.0);
-    double lift = maths_min(share * share, maths_max(kind->max_load, 1.0));
-    double pull = PULL_SHARE * maths_clamp(lift - 1.0, LEAST_PULL, AIRFRAME_PULL);
-    double load = maths_max(lift / LEVEL_LOAD, 1.0);
+    double load = maths_max(climb_limits_lift(kind, speed) / LEVEL_LOAD, 1.0);
     double turn = GRAVITY_MPS2 * sqrt(load * load - 1.0) / maths_max(speed, 1.0);
     return (struct climb_look){
         .tops = &context->line_of_sight->skyline,
@@ -53,7 +49,7 @@ static struct climb_look begin(const struct step_context *context, uint32_t i,
         .speed_mps = speed,
         .heading_rad = maths_heading(m->vx[i], m->vz[i]),
         .clear_m = CLEAR_SHARE * desired->altitude_m,
-        .pull_mps2 = GRAVITY_MPS2 * pull,
+        .pull_mps2 = climb_limits_pull(kind, speed),
         .turn_rps = maths_min(turn, kind->turn_rate_rps),
         .late_s = think_s + ROLLS_S,
     };
@@ -132,8 +128,6 @@ void terrain_following_steer(const struct step_context *context, uint32_t i, dou
 
 /* --- helicopters -------------------------------------------------------------------------------*/
 
-#define BRAKES_MPS2  3.4  /* on which it relies: it leans back by 20 degrees */
-#define HOVER_PULL   0.4  /* [g] the same, upwards */
 #define HOVER_LATE_S 0.7  /* until its lean slows it down */
 #define HOVER_BANK   0.8  /* slope of its steepest bank in a turn, which leaves it power to climb */
 #define LEAST_BANK   0.2  /* and of the steepest where it is near the ground */
@@ -177,7 +171,7 @@ static struct climb_ahead look_ahead(const struct step_context *context, uint32_
     const struct kind *kind = &context->world->kinds[m->kind[i]];
     const double think_s = context->dt_s * (double)cruise_start_think_frames(context, i);
     double speed = sqrt(m->vx[i] * m->vx[i] + m->vz[i] * m->vz[i]);
-    double tight = speed / maths_max(kind->turn_rate_rps, 0.01);
+    double tight = speed / maths_max(kind->turn_rate_rps, 0.01), brake = climb_limits_brake(kind);
     double body = maths_min(0.5 * HOVER_LEAN * kind->length_m - kind->low_m, desired->altitude_m);
     bool astern = desired->speed_mps < 0.0;
     return (struct climb_ahead){
@@ -188,13 +182,13 @@ static struct climb_ahead look_ahead(const struct step_context *context, uint32_
         .half_length_m = 0.5 * kind->length_m,
         .half_width_m = 0.5 * kind->width_m,
         .climb_mps = CLIMB_SHARE * kind->climb_rate_mps,
-        .pull_mps2 = HOVER_PULL * GRAVITY_MPS2,
-        .brake_mps2 = BRAKES_MPS2,
+        .pull_mps2 = climb_limits_pull(kind, speed),
+        .brake_mps2 = brake,
         .late_s = HOVER_LATE_S + think_s,
         .heading_rad = speed > STANDS_MPS ? maths_heading(m->vx[i], m->vz[i])
                                           : m->heading[i] + (astern ? PI : 0.0),
         .radius_m = maths_max(maths_max(speed * speed / (bank * GRAVITY_MPS2), tight), 1.0),
-        .length_m = speed * speed / (2.0 * BRAKES_MPS2) + HOVER_S * speed + HOVER_M,
+        .length_m = speed * speed / (2.0 * brake) + HOVER_S * speed + HOVER_M,
         .clear_m = maths_max(HOVER_CLEAR * desired->altitude_m, body),
         .least_m = maths_max(HOVER_LEAST * desired->altitude_m, HOVER_SHARE * body),
     };

@@ -86,6 +86,25 @@ static void test_agents_do_not_fly_into_mountains(void **state)
     assert_int_equal(struck, 0);
 }
 
+/* They begin at 70 m/s and 80 m, some of them before slopes of 40 degrees. */
+static void test_jets_that_begin_low_live(void **state)
+{
+    uint64_t seed = fixture_seed(1);
+    uint32_t struck = 0;
+    (void)state;
+    for (uint64_t n = 0; n < seeds(); n++) {
+        open_mountains(seed + n, "vehicles = ( { kind = \"jet\"; count = 36; altitude_m = 80.0;\n"
+                                 "  area = [17000.0, 17000.0, 33000.0, 33000.0]; } );");
+        bool damaged[ROWS + 1] = {false};
+        for (uint32_t second = 0; second < 20; second++) {
+            fixture_continue(&f, HZ);
+            struck += crashes(damaged);
+        }
+        fixture_close(&f);
+    }
+    assert_int_equal(struck, 0);
+}
+
 /* Some aircraft of a kind, each with a script from place to place in a square. */
 struct scripted {
     const char *kind;
@@ -257,6 +276,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_agents_do_not_fly_into_mountains),
+        cmocka_unit_test(test_jets_that_begin_low_live),
         cmocka_unit_test(test_scripted_jets_follow_the_ground),
         cmocka_unit_test(test_scripted_helicopters_stay_off_slopes),
         cmocka_unit_test(test_scripted_helicopters_stay_off_trees),

@@ -256,6 +256,32 @@ static void test_spawn_makes_what_was_asked_for(void **state)
     assert_true(fabs(steps_rows(&f).x[row] - (30000.0 - 0.5)) < 1e-9);
 }
 
+static double to_the_east(double x, double z, const void *context)
+{
+    (void)z;
+    (void)context;
+    return FIXTURE_GROUND_M + maths_clamp(x - 30000.0, 0.0, 300.0);
+}
+
+/* Unless it holds its course, a jet is spawned so high that it can climb over the slope ahead. */
+static void test_spawn_puts_jets_over_what_is_ahead(void **state)
+{
+    static const enum behaviour behaviours[] = {BEHAVIOUR_PATROL, BEHAVIOUR_HOLD};
+    double over[2];
+    (void)state;
+    steps_ground(&f, to_the_east, NULL);
+    for (int n = 0; n < 2; n++) {
+        struct event_command answer =
+            steps_command(&f, (struct command){.type = COMMAND_SPAWN,
+                                               .kind = fixture_kind(&f, "jet"),
+                                               .amount = (uint32_t)behaviours[n],
+                                               .value = {30000.0, 20000.0, 80.0, HALF_PI, 70.0}});
+        assert_int_equal(answer.result, COMMAND_DONE);
+        over[n] = steps_rows(&f).y[steps_find(&f, answer.entity)] - FIXTURE_GROUND_M;
+    }
+    assert_true(over[0] > 200.0 && over[1] == 80.0);
+}
+
 static void test_spawn_refuses_what_is_out_of_range(void **state)
 {
     uint16_t kind = fixture_kind(&f, "helicopter");
@@ -518,6 +544,7 @@ int main(void)
         TEST(test_no_vehicle_fires_at_itself),
         TEST(test_a_full_table_is_said_to_be_full),
         TEST(test_spawn_makes_what_was_asked_for),
+        TEST(test_spawn_puts_jets_over_what_is_ahead),
         TEST(test_spawn_refuses_what_is_out_of_range),
         TEST(test_remove_frees_the_row_and_its_id_is_gone),
         TEST(test_paused_frames_do_not_advance_time),

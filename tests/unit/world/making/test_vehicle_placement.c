@@ -2,6 +2,7 @@
 #include "world/entity/formation.h"
 #include "world/enum_names.h"
 #include "world/making/vehicle_placement.h"
+#include "world/making/world_build.h"
 
 #include "tests/support/fixture.h"
 #include "world/params.h"
@@ -218,6 +219,36 @@ static void test_no_thin_wall_stands_in_a_vehicle(void **state)
     fixture_close(&f);
 }
 
+/* Of 60 aircraft some are before slopes that a jet cannot climb. */
+static void test_jets_begin_over_what_is_ahead(void **state)
+{
+    static const struct {
+        const char *kind, *behaviour;
+        bool raised;
+    } rows[] = {{"jet", "patrol", true}, {"jet", "hold", false}, {"helicopter", "patrol", false}};
+    (void)state;
+    for (int n = 0; n < 3; n++) {
+        char text[500];
+        uint32_t raised = 0;
+        snprintf(text, sizeof text,
+                 "world = { seed = 2; capacity = 64; };"
+                 "terrain = { source = \"file\"; file = \"%s/grounds/white-mountains.ground\"; };"
+                 "vehicles = ( { kind = \"%s\"; count = 60; altitude_m = 80.0; behaviour = \"%s\";"
+                 " area = [17000.0, 17000.0, 33000.0, 33000.0]; } );",
+                 fixture_shipped_dir(), rows[n].kind, rows[n].behaviour);
+        fixture_open(&f, text);
+        const struct entities e = fixture_state(&f).entities;
+        for (uint32_t i = 0; i < 60; i++) {
+            double over = e.y[i] - terrain_base_height(&f.view.world.terrain, e.x[i], e.z[i]);
+            assert_true(over > 79.9);
+            raised += over > 80.1;
+        }
+        assert_int_equal(f.built->raised, raised);
+        assert_true(rows[n].raised ? raised > 0 && raised < 30 : raised == 0);
+        fixture_close(&f);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -228,6 +259,7 @@ int main(void)
         cmocka_unit_test(test_a_base_is_amid_its_force),
         cmocka_unit_test(test_vehicles_stand_on_slopes),
         cmocka_unit_test(test_edges_of_works_bear_no_vehicle_as_a_plane_does),
+        cmocka_unit_test(test_jets_begin_over_what_is_ahead),
         cmocka_unit_test(test_no_thin_wall_stands_in_a_vehicle),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
