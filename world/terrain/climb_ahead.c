@@ -14,8 +14,9 @@
 #define SLOW_MPS   1.0  /* a slower one is as late as with this speed */
 #define BESIDE_M   2.0  /* gap to an object beside the way */
 #define STRAYS     0.05 /* and so much more, as a share of the distance, as ways are not held */
-#define OVER_SHARE 1.5  /* of the height that it must have: so high it wants to be over an object  \
-                         */
+#define OVER_SHARE                                                                                 \
+    1.5 /* of the height that it must have: so high it wants to be over an object                  \
+         */
 
 /* With a change c and t seconds of pull p, c - c^2 / 2p = even - up. */
 double climb_ahead_change(double up_mps, double even_mps, double pull_mps2, double t)
@@ -95,6 +96,21 @@ struct leg {
     double lowest_m;
 };
 
+/* A rectangle on the map [m]. */
+struct extent {
+    double x0, z0, x1, z1;
+};
+
+/* Returns the rectangle around all that is beside the leg. */
+static struct extent extent_of(const struct climb_ahead *ahead, const struct leg *leg)
+{
+    double to_x = leg->x + leg->length_m * leg->sine, to_z = leg->z - leg->length_m * leg->cosine;
+    double beside = maths_max(ahead->half_length_m, ahead->half_width_m) + BESIDE_M +
+                    STRAYS * (leg->distance_m + leg->length_m);
+    return (struct extent){maths_min(leg->x, to_x) - beside, maths_min(leg->z, to_z) - beside,
+                           maths_max(leg->x, to_x) + beside, maths_max(leg->z, to_z) + beside};
+}
+
 /* Passes the top of an object if it is beside the leg, or if the body touches it where the way
  * begins. */
 static void pass_object(const struct climb_ahead *ahead, const struct leg *leg,
@@ -119,30 +135,15 @@ static void pass_object(const struct climb_ahead *ahead, const struct leg *leg,
              need);
 }
 
-/* Passes the tops of the objects of all gridsquares near the leg that it is not far above. */
-static void pass_objects(const struct terrain *terrain, const struct climb_ahead *ahead,
-                         const struct leg *leg, struct climb_need *need)
+static void pass_objects(const struct climb_ahead *ahead, const struct leg *leg, uint32_t square,
+                         struct climb_need *need)
 {
     const struct climb_objects *objects = ahead->objects;
-    const struct gridsquares *squares = &terrain->squares;
-    double to_x = leg->x + leg->length_m * leg->sine, to_z = leg->z - leg->length_m * leg->cosine;
-    double beside = maths_max(ahead->half_length_m, ahead->half_width_m) + BESIDE_M +
-                    STRAYS * (leg->distance_m + leg->length_m);
-    struct gridsquare_box box = gridsquare_box_of(
-        squares, maths_min(leg->x, to_x) - beside, maths_min(leg->z, to_z) - beside,
-        maths_max(leg->x, to_x) + beside, maths_max(leg->z, to_z) + beside);
-    for (int32_t row = box.z0; row <= box.z1; row++)
-        for (int32_t column = box.x0; column <= box.x1; column++) {
-            uint32_t square = gridsquare_index(squares, column, row);
-            if (is_far_below(ahead, leg->lowest_m, square))
-                continue;
-            for (uint32_t n = objects->reach_start[square]; n < objects->reach_start[square + 1];
-                 n++) {
-                uint32_t index = objects->reach[n];
-                if (fallen_damage(objects->damage[index]) < DAMAGE_HIGH)
-                    pass_object(ahead, leg, &objects->fixed[index], need);
-            }
-        }
+    for (uint32_t n = objects->reach_start[square]; n < objects->reach_start[square + 1]; n++) {
+        uint32_t index = objects->reach[n];
+        if (fallen_damage(objects->damage[index]) < DAMAGE_HIGH)
+            pass_object(ahead, leg, &objects->fixed[index], need);
+    }
 }
 
 /* Passes the ground where the leg begins, as high as the body reaches to its sides. */
@@ -167,24 +168,50 @@ static void pass_tail(const struct terrain *terrain, const struct climb_ahead *a
         pass(ahead, leg->lowest_m, terrain_base_height(terrain, x, z), ahead->clear_m, 0.0, need);
 }
 
+/* Passes what stands beside the leg in all gridsquares that it is not far above. Most legs are far
+ * above all: below is what is known to be so, and most are within that of the leg before. */
+static void pass_leg(const struct terrain *terrain, const struct climb_ahead *ahead,
+                     const struct leg *leg, struct extent *below, struct climb_need *need)
+{
+    const struct gridsquares *squares = &terrain->squares;
+    const struct extent at = extent_of(ahead, leg);
+    bool all = true;
+    if (at.x0 >= below->x0 && at.z0 >= below->z0 && at.x1 <= below->x1 && at.z1 <= below->z1)
+        return;
+    struct gridsquare_box box = gridsquare_box_of(squares, at.x0, at.z0, at.x1, at.z1);
+    for (int32_t row = box.z0; row <= box.z1; row++)
+        for (int32_t column = box.x0; column <= box.x1; column++) {
+            uint32_t square = gridsquare_index(squares, column, row);
+            if (is_far_below(ahead, leg->lowest_m, square))
+                continue;
+            all = false;
+            if (ahead->objects)
+                pass_objects(ahead, leg, square, need);
+        }
+    if (all)
+        *below = (struct extent){box.x0 * squares->side_m, box.z0 * squares->side_m,
+                                 (box.x1 + 1) * squares->side_m, (box.z1 + 1) * squares->side_m};
+    else
+        pass_ground(terrain, ahead, leg, need);
+}
+
 struct climb_need climb_ahead_need(const struct terrain *terrain, const struct climb_ahead *ahead)
 {
     struct climb_need need = {.climb_mps = -INFINITY, .speed_mps = INFINITY};
+    struct extent below = {INFINITY, INFINITY, -INFINITY, -INFINITY};
     const double least = maths_max(STEP_M, STEP_CLEAR * ahead->clear_m);
     struct leg leg = {.x = ahead->at.x, .z = ahead->at.z, .lowest_m = lowest(ahead)};
     double turned = 0.0;
     maths_sincos(ahead->heading_rad, &leg.sine, &leg.cosine);
     pass_tail(terrain, ahead, &leg, &need);
     while (leg.distance_m <= ahead->length_m) {
-        pass_ground(terrain, ahead, &leg, &need);
         leg.length_m = maths_max(least, STEP_SHARE * leg.distance_m);
         if (turned < fabs(ahead->off_rad)) {
             turned = maths_min(turned + leg.length_m / ahead->radius_m, fabs(ahead->off_rad));
             maths_sincos(ahead->heading_rad + (ahead->off_rad < 0.0 ? -turned : turned), &leg.sine,
                          &leg.cosine);
         }
-        if (ahead->objects)
-            pass_objects(terrain, ahead, &leg, &need);
+        pass_leg(terrain, ahead, &leg, &below, &need);
         leg.x += leg.length_m * leg.sine;
         leg.z -= leg.length_m * leg.cosine;
         leg.distance_m += leg.length_m;
