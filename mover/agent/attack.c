@@ -5,6 +5,7 @@
 #include "mover/agent/goal.h"
 #include "mover/agent/perception.h"
 #include "mover/agent/shunting.h"
+#include "world/entity/climb_limits.h"
 #include "world/params.h"
 #include "world/state.h"
 #include "world/world.h"
@@ -15,6 +16,7 @@
 #define TOO_NEAR_SHARE  0.25 /* share of the range: if the target is nearer it backs away */
 #define SIDE_RAD        1.7  /* direction to the other side, off its target */
 #define ROCKET_SHARE    0.48 /* of the range, from which a helicopter fires rockets */
+#define STOP_MPS        5.0  /* the least speed with which it comes to where it hovers */
 #define NEARLY_M        50.0 /* so far out of range it begins to lay its gun */
 #define BREAK_OFF       0.2  /* share of the range at which a jet's pass ends */
 #define BREAK_SHARE     0.6  /* nearer than this share a jet that cannot fire yet turns away */
@@ -40,15 +42,36 @@ static void stand_off(const struct kind *kind, const struct aim *aim, double dis
     desired->speed_mps = there ? 0.0 : kind->max_speed_mps;
 }
 
+/* Returns how far from its target a helicopter hovers, or from how far it fires [m]: that share of
+ * its range, or more before air defence. */
+static double hover_m(const struct step_context *context, uint32_t i, double share)
+{
+    const struct entities *m = context->m;
+    return maths_max(share * context->world->kinds[m->kind[i]].range_m,
+                     fire_control_outranges_m(context, i, m->target_slot[i]));
+}
+
+/* Comes to where it hovers before air defence no faster than it can stop there. */
+static void stay_away(const struct step_context *context, uint32_t i, const struct kind *kind,
+                      const struct aim *aim, struct desired_motion *desired)
+{
+    double safe_m = fire_control_outranges_m(context, i, context->m->target_slot[i]);
+    double way_m = maths_max(aim->distance - safe_m, 0.0);
+    if (safe_m > 0.0)
+        desired->speed_mps =
+            maths_min(desired->speed_mps, STOP_MPS + sqrt(2.0 * climb_limits_brake(kind) * way_m));
+}
+
 /* A helicopter hovers high enough to see its target, fires, and changes sides behind the crests. */
 static void hover(const struct step_context *context, uint32_t i, const struct kind *kind,
-                  const struct aim *aim, double share, struct desired_motion *desired)
+                  const struct aim *aim, double distance, struct desired_motion *desired)
 {
     double round =
         ((double)context->tick * context->dt_s + (double)(context->m->id[i] % 12u)) / HOVER_S;
     double phase = round - floor(round);
-    bool near = aim->distance <= share * kind->range_m;
-    stand_off(kind, aim, share * kind->range_m, desired);
+    bool near = aim->distance <= distance;
+    stand_off(kind, aim, distance, desired);
+    stay_away(context, i, kind, aim, desired);
     desired->altitude_m = (near ? POP_UP_SHARE : LOW_SHARE) * kind->cruise_altitude_m;
     if (near && phase < HOVER_SHARE && !aim->seen)
         desired->speed_mps = phase < POP_UP_PHASE ? 0.0 : desired->speed_mps;
@@ -130,7 +153,7 @@ void attack_motion(const struct step_context *context, uint32_t i,
     aim.distance = sqrt(dx * dx + dz * dz);
     switch (table->manner) {
     case MANNER_HOVER:
-        hover(context, i, kind, &aim, table->stand_off, desired);
+        hover(context, i, kind, &aim, hover_m(context, i, table->stand_off), desired);
         break;
     case MANNER_PASS:
         pass(context, i, kind, &aim, table->stand_off, desired);
@@ -152,7 +175,7 @@ static double rocket_reach_m(const struct step_context *context, uint32_t i, dou
     const struct kind *kind = &kinds[context->m->kind[i]];
     bool hovers = behaviour_tables[kind->doctrine].manner == MANNER_HOVER;
     bool guided = kinds[kind->munition].guidance == GUIDANCE_HOMING;
-    return hovers && !guided ? maths_min(reach, ROCKET_SHARE * kind->range_m) : reach;
+    return hovers && !guided ? maths_min(reach, hover_m(context, i, ROCKET_SHARE)) : reach;
 }
 
 uint32_t attack_aim_frames(const struct params *params)

@@ -20,7 +20,8 @@
 #define KEPT_REACH         0.3  /* share of the range at which it fires the rounds that it keeps */
 #define CLOSE_SHARE        0.15 /* so near it also fires at what it harms only from behind */
 #define SPREADS            1.25 /* errors of the aim that a target is wide and high where it fires */
-#define SELF_DEFENCE       0.4  /* share of the range at which air defence fires at the ground */
+#define OUTRANGES          1.15 /* of the reach of air defence, from which a helicopter fires at it */
+#define SELF_DEFENCE       0.4   /* share of the range at which air defence fires at the ground */
 #define ENGAGED_M          300.0 /* it chooses targets so far beyond its reach, and drives closer */
 #define POSITION_S         5.0 /* guns that load faster change their place about so often, times 2-4 */
 #define PASSES             2u  /* missiles of a jet's sortie */
@@ -83,6 +84,17 @@ bool fire_control_air_defence(const struct step_context *context, uint32_t i)
     const struct kind *round = kind->munition != KIND_NONE ? &kinds[kind->munition] : NULL;
     return kind->doctrine == DOCTRINE_FLAK ||
            (round && round->guidance == GUIDANCE_HOMING && round->air_targets == AIR_TARGETS_ALL);
+}
+
+double fire_control_outranges_m(const struct step_context *context, uint32_t i, uint32_t target)
+{
+    const struct kind *kinds = context->world->kinds;
+    const struct kind *kind = &kinds[context->m->kind[i]];
+    const struct kind *other = &kinds[context->committed->entities.kind[target]];
+    double safe_m = OUTRANGES * other->range_m;
+    bool outranges = kind->doctrine == DOCTRINE_HELICOPTER && other->doctrine == DOCTRINE_FLAK &&
+                     kind->range_m > safe_m;
+    return outranges ? safe_m : 0.0;
 }
 
 static bool keeps_rounds(const struct entities *m, uint32_t i, const struct kind *kind)

@@ -42,6 +42,10 @@ bool fire_control_worth(const struct step_context *context, uint32_t i, uint32_t
  * changes its place (two to four rounds of a tank) and an aircraft flies home. */
 bool fire_control_salvo_over(const struct step_context *context, uint32_t i);
 
+/* Returns from how far row i, a helicopter, fires at the committed row target [m]: from beyond its
+ * reach, if that is air defence that the helicopter outranges; 0 for all else. */
+double fire_control_outranges_m(const struct step_context *context, uint32_t i, uint32_t target);
+
 /* Returns true if row i is air defence or fires homing missiles, so that aircraft evade it. */
 bool fire_control_air_defence(const struct step_context *context, uint32_t i);
 

@@ -16,6 +16,7 @@
 #define SEARCH_MOST_S  30.0 /* mean time to find an enemy at the end of the sight */
 #define SEARCH_LEAST_S 1.0  /* and of one near by */
 #define PREFERENCE     2.0  /* a target's distance, squared, counts up to 1 + this much */
+#define FIRST          0.1  /* of that: as little counts that of air defence that it outranges */
 
 /* --- seeing ------------------------------------------------------------------------------------*/
 
@@ -128,8 +129,11 @@ static void gather(const struct step_context *context, uint32_t i, const struct 
         double dx = (double)entry->x - query.x, dz = (double)entry->z - query.z;
         double square = dx * dx + dz * dz;
         if (in_view(view, dx, dz) && fire_control_worth(context, i, entry->row, square) &&
-            (all || fire_control_fights(context, i, entry->row)))
-            consider(c, entry->row, square * preference(context, i, entry->row));
+            (all || fire_control_fights(context, i, entry->row))) {
+            bool first = fire_control_outranges_m(context, i, entry->row) > 0.0;
+            square *= preference(context, i, entry->row);
+            consider(c, entry->row, first ? FIRST * square : square);
+        }
     }
 }
 

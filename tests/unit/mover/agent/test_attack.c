@@ -115,6 +115,31 @@ static void test_a_helicopter_changes_sides_low_and_fires_from_above(void **stat
     assert_true(fired_low < INFINITY && fired_low > low);
 }
 
+/* The gun reaches 1,600 m, rockets reach 2,500. After twelve the helicopter flies home. */
+static void test_a_helicopter_stays_out_of_reach_of_air_defence(void **state)
+{
+    uint32_t flak =
+        steps_put(&f, "flak", (struct vec3){25000.0, 100.0, 25000.0}, FORCE_RED, BEHAVIOUR_IDLE);
+    uint32_t row = steps_put(&f, "helicopter", (struct vec3){25000.0, 145.0, 27400.0}, FORCE_BLUE,
+                             BEHAVIOUR_IDLE);
+    double nearest = INFINITY;
+    (void)state;
+    steps_rows(&f).flags[flak] = ENTITY_FLAG_FIRE_AT_WILL | ENTITY_FLAG_STAND;
+    steps_kind(&f, "flak")->resistance_j = 1e12;
+    steps_kind(&f, "flak")->mass_kg = 1e12;
+    attack(row, flak);
+    for (uint32_t frame = 0; frame < 80 * HZ && fixture_event_count(&f, EVENT_FIRE) < 10; frame++) {
+        fixture_run(&f, 1);
+        nearest = maths_min(
+            nearest, vec3_length(vec3_sub(steps_position(&f, row), steps_position(&f, flak))));
+    }
+    print_message("10 rockets from %.0f m or further\n", nearest);
+    assert_int_equal(fixture_event_count(&f, EVENT_FIRE), 10);
+    for (uint32_t n = 0; n < 10; n++)
+        assert_int_equal(fixture_event(&f, EVENT_FIRE, n)->fire.shooter.id, row + 1);
+    assert_true(nearest > steps_kind(&f, "flak")->range_m);
+}
+
 /* --- air defence -------------------------------------------------------------------------------*/
 
 static uint32_t flak_fires(const char *kind, double height, double distance)
@@ -412,6 +437,7 @@ int main(void)
         TEST(test_jets_that_attack_fire_within_a_minute),
         TEST(test_a_jet_extends_after_its_shot_and_flies_home_after_two),
         TEST(test_a_helicopter_changes_sides_low_and_fires_from_above),
+        TEST(test_a_helicopter_stays_out_of_reach_of_air_defence),
         TEST(test_flak_fires_at_aircraft_and_near_ground_targets),
         TEST(test_aircraft_evade_flak),
         TEST(test_a_burst_silences_a_crew_for_ten_to_thirty_seconds),

@@ -54,6 +54,24 @@ static bool suits(const char *shooter, const char *target)
     return ask(fire_control_suits, shooter, target, 300.0, 1000.0);
 }
 
+static bool outranges(const struct step_context *step, uint32_t shooter, uint32_t target)
+{
+    return fire_control_outranges_m(step, shooter, target) > 0.0;
+}
+
+static void test_helicopters_outrange_air_defence_unless_it_reaches_further(void **state)
+{
+    struct kind *flak = steps_kind(&f, "flak");
+    const double range_m = flak->range_m;
+    (void)state;
+    assert_true(ask(outranges, "helicopter", "flak", 0.0, 2000.0));
+    assert_false(ask(outranges, "helicopter", "tank", 0.0, 2000.0));
+    assert_false(ask(outranges, "jet", "flak", 0.0, 2000.0));
+    flak->range_m = 2400.0; /* beyond it rockets would fly too far */
+    assert_false(ask(outranges, "helicopter", "flak", 0.0, 2000.0));
+    flak->range_m = range_m;
+}
+
 static void test_no_tank_gun_suits_a_jet(void **state)
 {
     (void)state;
@@ -352,6 +370,7 @@ int main(void)
 {
 #define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
     const struct CMUnitTest tests[] = {
+        TEST(test_helicopters_outrange_air_defence_unless_it_reaches_further),
         TEST(test_no_tank_gun_suits_a_jet),
         TEST(test_a_round_harms_what_it_may_penetrate),
         TEST(test_row_9_who_cannot_harm_a_tank_takes_cover_and_does_not_fire),

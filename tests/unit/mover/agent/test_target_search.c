@@ -104,6 +104,32 @@ static void test_a_crew_that_stands_looks_past_what_it_cannot_harm(void **state)
         fail_msg("%u of %u jeeps fight", fight, CREWS);
 }
 
+/* Of a gun and three trucks that are nearer. */
+static void test_helicopters_take_air_defence_first(void **state)
+{
+    uint32_t first = 0;
+    (void)state;
+    for (uint32_t n = 0; n < CREWS; n++) {
+        double x = 4000.0 + 6000.0 * (n % 7), z = 4000.0 + 6000.0 * (double)(n / 7);
+        put("helicopter", x, z, FORCE_BLUE, BEHAVIOUR_IDLE);
+        put("flak", x, z - 2000.0, FORCE_RED, BEHAVIOUR_HOLD);
+        for (int truck = 0; truck < 3; truck++)
+            put("truck", x + 30.0 * truck, z - 1500.0, FORCE_RED, BEHAVIOUR_HOLD);
+    }
+    struct entities e = steps_rows(&f);
+    for (uint32_t n = 0; n < CREWS; n++) {
+        e.y[5 * n] += 45.0;
+        e.behaviour[5 * n] = BEHAVIOUR_ATTACK; /* a crew at ease finds what is near first */
+        steps_target(&f, 5 * n, 5 * n + 2);
+        e.state[5 * n + 2] = ENTITY_WRECK;
+    }
+    fixture_run(&f, 2 * HZ);
+    e = steps_rows(&f);
+    for (uint32_t n = 0; n < CREWS; n++)
+        first += e.behaviour[5 * n] == BEHAVIOUR_ATTACK && e.target_slot[5 * n] == 5 * n + 1;
+    assert_int_equal(first, CREWS);
+}
+
 static void test_no_crew_takes_a_wreck_or_what_is_out_of_reach(void **state)
 {
     struct step_context step;
@@ -159,6 +185,7 @@ int main(void)
         TEST(test_the_time_to_find_a_target_grows_with_the_distance),
         TEST(test_crews_side_by_side_take_different_targets),
         TEST(test_a_crew_that_stands_looks_past_what_it_cannot_harm),
+        TEST(test_helicopters_take_air_defence_first),
         TEST(test_no_crew_takes_a_wreck_or_what_is_out_of_reach),
         TEST(test_looks_ahead_of_a_turn_are_one_look),
     };
