@@ -5,7 +5,7 @@
 #include "world/entity/kind.h"
 
 #define STEP_S       0.25
-#define AHEAD_S      20.0
+#define STEPS        80   /* it looks so far ahead: 20 s */
 #define REACT_S      1.0  /* until its pilot has decided */
 #define CLEAR_M      20.0 /* over the ground ahead, unless it begins lower */
 #define SPEEDS_SHARE 0.5  /* of its thrust, which a climb leaves for its speed */
@@ -21,10 +21,10 @@ double start_height(const struct terrain *terrain, const struct kind *kind,
     double speed = flight->speed_mps, up = 0.0, risen = 0.0, way = 0.0, height = flight->altitude_m;
     double sine, cosine, clear = maths_min(CLEAR_M, flight->altitude_m);
     maths_sincos(flight->heading_rad, &sine, &cosine);
-    for (double t = STEP_S; t <= AHEAD_S; t += STEP_S) {
+    for (int n = 1; n <= STEPS; n++) {
         double steepest = maths_min(STEEP_SHARE * speed, CLIMB_SHARE * kind->climb_rate_mps);
         speed = maths_min(speed + SPEEDS_SHARE * kind->acceleration_mps2 * STEP_S, most);
-        if (t > REACT_S)
+        if (n * STEP_S > REACT_S)
             up = maths_min(up + climb_limits_pull(kind, speed) * STEP_S, steepest);
         risen += up * STEP_S;
         way += speed * STEP_S;
