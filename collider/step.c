@@ -3,6 +3,7 @@
 
 #include "collider/narrow_phase/cruise_rows.h"
 #include "collider/remote_rows.h"
+#include "collider/resting/ground_placement.h"
 #include "collider/resting/held_rest.h"
 #include "collider/resting/sleeping_contacts.h"
 #include "collider/resting/turret_guard.h"
@@ -278,6 +279,17 @@ static bool is_crowded(const struct collider *collider)
     return collider->motion.committed->head->contact_count >= CROWDED && !collider->slept;
 }
 
+/* Bodies end the frame on the ground that its explosions leave. */
+static void settle_on_new_ground(const struct step *step, struct response_context *context)
+{
+    const uint32_t known = step->committed->head->crater_count;
+    const uint32_t count = context->next->head->crater_count;
+    if (count == known)
+        return;
+    crater_index_update(&step->collider->craters, count);
+    ground_placement_dug(context, known);
+}
+
 static void collide_all(struct step *step, struct response_context *context)
 {
     struct collider *collider = step->collider;
@@ -299,6 +311,7 @@ static void collide_all(struct step *step, struct response_context *context)
         work_done();
     }
 
+    settle_on_new_ground(step, context);
     if (context->functions->joint)
         end_guard_run(&collider->guard, &collider->resting, &collider->free, context);
     if (rest)

@@ -14,9 +14,10 @@ struct world;
 #define COURSE_LIFT_ALONG  16
 #define COURSE_LIFT_ACROSS 8
 
-/* Returns by how much a vehicle that stands in this pose has to be lifted until neither a corner of
- * its hulls nor a place of its underside is in the ground [m], 0 where no crater (NULL: none) and
- * no work is near. at_x, at_z: its position; heading clockwise from north [rad]. */
+/* Returns by how much a vehicle that stands in this pose has to be lifted until no corner of its
+ * hulls and no place of its underside is deeper in the ground than it would be without works and
+ * craters [m], 0 where no crater (NULL: none) and no work is near. So a crater lifts no vehicle
+ * that is beside it. at_x, at_z: its position; heading clockwise from north [rad]. */
 double course_lift(const struct world *world, const struct crater_index *craters, uint16_t kind,
                    double at_x, double at_z, double heading_rad, const struct rest_pose *pose);
 

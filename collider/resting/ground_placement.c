@@ -34,6 +34,38 @@ void ground_placement_put(struct response_context *context, uint32_t row, struct
     table_set_heading(&context->writer, row, heading_rad);
 }
 
+/* Returns true for a vehicle that holds its course and has no springs. */
+static bool holds_course(const struct response_context *context, uint32_t row)
+{
+    const struct entities *e = &context->next->entities;
+    return e->state[row] == ENTITY_ACTIVE && e->behaviour[row] == BEHAVIOUR_HOLD &&
+           context->world->kinds[e->kind[row]].domain == DOMAIN_LAND &&
+           !(e->flags[row] & ENTITY_FLAG_CHASSIS);
+}
+
+/* Returns true if one of these craters or its rim may be under a row. */
+static bool is_dug_under(const struct response_context *context, uint32_t first, uint32_t row)
+{
+    const struct entities *e = &context->next->entities;
+    const double bound_m = context->world->kinds[e->kind[row]].bound_m;
+    for (uint32_t i = first; i < context->next->head->crater_count; i++) {
+        const struct crater *crater = &context->next->craters[i];
+        const double reach_m = (double)crater->radius_m * CRATER_RIM + bound_m;
+        if (fabs(crater->x - e->x[row]) < reach_m && fabs(crater->z - e->z[row]) < reach_m)
+            return true;
+    }
+    return false;
+}
+
+void ground_placement_dug(struct response_context *context, uint32_t first)
+{
+    const struct entities *e = &context->next->entities;
+    for (uint32_t row = 0; row < context->next->head->used; row++) {
+        if (holds_course(context, row) && is_dug_under(context, first, row))
+            ground_placement_put(context, row, entities_position(e, row), e->heading[row]);
+    }
+}
+
 static struct exit_slope slope_under(const struct response_context *context, uint32_t row)
 {
     const struct entities *w = body_motion_before(context->motion, row);

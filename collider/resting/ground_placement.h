@@ -11,6 +11,11 @@
 void ground_placement_put(struct response_context *context, uint32_t row, struct vec3 at,
                           double heading_rad);
 
+/* Puts vehicles that hold their course on the craters of this frame, which are those from first on
+ * and in the index of the context: the ground lifts them by geometry. All others are pushed by
+ * what digs a crater and take to their springs. */
+void ground_placement_dug(struct response_context *context, uint32_t first);
+
 /* Returns the slope of the ground under a pair when the frame begins: the mean of both sides, that
  * of the first where the second is a fixed object, none on water. */
 struct exit_slope ground_placement_slope(const struct response_context *context, uint32_t a,

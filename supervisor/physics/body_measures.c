@@ -195,27 +195,60 @@ static void measure_corners(struct measures *measures, const struct ground_look 
         measure_sinking(measures, ground, body);
 }
 
-/* Returns how high a vehicle stands over the ground under its middle. */
-static double standing_height(const struct surface *surface, const struct body_look *body)
+/* Returns the rectangle on which a land vehicle stands. */
+static struct surface_rectangle rectangle_under(const struct body_look *body)
 {
     const struct kind *kind = body->kind;
     double length = maths_max(0.5 * kind->length_m, STANCE_LEAST_M);
     double width = maths_max(0.5 * kind->width_m, STANCE_LEAST_M);
     double sine, cosine;
     maths_sincos(body->now.heading, &sine, &cosine);
-    const struct surface_rectangle under = {.middle = body->named.at,
-                                            .forward = {sine * length, 0.0, -cosine * length},
-                                            .right = {cosine * width, 0.0, sine * width}};
-    if (kind->domain != DOMAIN_LAND || body->now.wreck)
+    return (struct surface_rectangle){.middle = body->named.at,
+                                      .forward = {sine * length, 0.0, -cosine * length},
+                                      .right = {cosine * width, 0.0, sine * width}};
+}
+
+/* Returns how high a vehicle stands over the ground under its middle. */
+static double standing_height(const struct surface *surface, const struct body_look *body)
+{
+    if (body->kind->domain != DOMAIN_LAND || body->now.wreck)
         return 0.0;
+    const struct surface_rectangle under = rectangle_under(body);
     return surface_clearance(surface, &under);
 }
 
-static double place_height(const struct ground_look *ground, const struct body_look *body,
-                           struct vec3 place)
+/* A body on a ground. */
+struct stand {
+    const struct surface *surface;
+    struct rigid_pose pose;
+};
+
+static double place_height(const struct stand *stand, struct vec3 place)
 {
-    const struct vec3 at = vec3_add(body->named.at, rigid_pose_out(&body->now.pose, place));
-    return at.y - surface_height(ground->surface, at.x, at.z);
+    const struct vec3 at = vec3_add(stand->pose.at, rigid_pose_out(&stand->pose, place));
+    return at.y - surface_height(stand->surface, at.x, at.z);
+}
+
+/* Returns the pose that a vehicle has on a ground by the heights under its middle and the middles
+ * of its sides. */
+static struct rigid_pose five_heights(const struct surface *surface, const struct body_look *body)
+{
+    const struct surface_rectangle under = rectangle_under(body);
+    const struct vec3 at = under.middle, forward = under.forward, right = under.right;
+    double rise = surface_height(surface, at.x + forward.x, at.z + forward.z) -
+                  surface_height(surface, at.x - forward.x, at.z - forward.z);
+    double fall = surface_height(surface, at.x - right.x, at.z - right.z) -
+                  surface_height(surface, at.x + right.x, at.z + right.z);
+    const struct vec3 stands = {at.x, surface_height(surface, at.x, at.z), at.z};
+    return rigid_pose_of(stands, body->now.heading, maths_atan2(rise, 2.0 * vec3_length(forward)),
+                         maths_atan2(fall, 2.0 * vec3_length(right)));
+}
+
+/* Returns how high a place is over the ground. One that would be in the ground without works and
+ * craters is as high as it is over that depth. */
+static double raised(const struct stand *uneven, const struct stand *bare, struct vec3 place)
+{
+    return place_height(uneven, place) - maths_min(0.0, place_height(bare, place));
 }
 
 /* Returns how high the lowest place of a vehicle that holds its course is over an uneven ground: of
@@ -223,17 +256,22 @@ static double place_height(const struct ground_look *ground, const struct body_l
 static double lowest_place(const struct ground_look *ground, const struct body_look *body)
 {
     const struct kind *kind = body->kind;
+    struct terrain posts = *ground->surface->terrain;
+    const struct surface plain = {.terrain = &posts};
+    const struct stand uneven = {ground->surface, body->now.pose};
     double lowest = HUGE_VAL;
+    posts.earthworks.count = 0;
+    const struct stand bare = {&plain, five_heights(&plain, body)};
     for (uint32_t i = 0; i < kind->hull_count; i++) {
         const struct hull_shape *shape = &ground->shape[kind->first_hull + i];
         for (uint32_t n = 0; n < shape->vertices; n++)
-            lowest = maths_min(lowest, place_height(ground, body, shape->vertex[n]));
+            lowest = maths_min(lowest, raised(&uneven, &bare, shape->vertex[n]));
     }
     for (uint32_t i = 0; i < PLACES_ALONG * PLACES_ACROSS; i++) {
         double along = (double)(i % PLACES_ALONG) / (PLACES_ALONG - 1) - 0.5;
         double across = (double)(i / PLACES_ALONG) / (PLACES_ACROSS - 1) - 0.5;
         const struct vec3 place = {along * kind->length_m, 0.0, across * kind->width_m};
-        lowest = maths_min(lowest, place_height(ground, body, place));
+        lowest = maths_min(lowest, raised(&uneven, &bare, place));
     }
     return lowest;
 }

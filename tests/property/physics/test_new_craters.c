@@ -1,0 +1,100 @@
+/* Bombs and shells dig craters under, beside and before vehicles that hold their course on hills.
+ * The judge looks at every frame: the ground lifts them as far as a crater is under them, in the
+ * frame that digs it, and no crater lifts a vehicle beside it. SEED=n draws others. */
+#include "tests/support/judged.h"
+#include "tests/support/scenario_text.h"
+#include "tests/support/steps.h"
+
+#include <stdint.h>
+#include <stdio.h>
+
+#define RUNS     3u
+#define VEHICLES 15u
+#define FIRES    12u
+#define APART_M  25.0
+#define SECONDS  8.0
+
+static const char *const kinds[] = {"tank", "carrier", "jeep", "truck", "flak"};
+static const double rates_hz[RUNS] = {60.0, 10.0, 240.0};
+
+static struct fixture f;
+static struct physics_check check;
+static struct scenario_text text;
+
+/* The vehicles stand in a row from west to east. */
+static double east_of(uint32_t vehicle)
+{
+    return 25000.0 + APART_M * vehicle;
+}
+
+static void write_fires(uint64_t *random)
+{
+    scenario_text_add(&text, "fires = (\n");
+    for (uint32_t i = 0; i < FIRES; i++)
+        scenario_text_add(&text, "{ at_s = %.2f; munition = \"%s\"; point = [%.2f, %.2f]; }%s\n",
+                          fixture_uniform(random, 0.2, 4.0), i % 3 == 0 ? "bomb" : "artillery",
+                          east_of((uint32_t)fixture_uniform(random, 0.0, VEHICLES)) +
+                              fixture_uniform(random, -4.0, 4.0),
+                          25000.0 + fixture_uniform(random, -12.0, 8.0), i + 1 < FIRES ? "," : "");
+    scenario_text_add(&text, ");\n");
+}
+
+static void put_vehicles(uint64_t *random)
+{
+    for (uint32_t i = 0; i < VEHICLES; i++) {
+        double x = east_of(i), z = 25000.0;
+        uint32_t row =
+            steps_put_driving(&f, kinds[i % 5], x, z, fixture_uniform(random, -30.0, 30.0),
+                              fixture_uniform(random, 0.0, 3.0));
+        assert_int_equal(steps_rows(&f).behaviour[row], BEHAVIOUR_HOLD);
+    }
+}
+
+static uint32_t count_bad(void)
+{
+    uint32_t bad = 0;
+    for (int i = 0; i < MEASURE_KINDS; i++) {
+        const struct measure *measure = &check.measures.of[i];
+        if (measure_good(&check.measures, (enum measure_kind)i))
+            continue;
+        bad++;
+        print_message("%s %g in frame %u, id %u\n", measure_word((enum measure_kind)i),
+                      measure->worst, (uint32_t)measure->frame, measure->body[0].id);
+    }
+    return bad;
+}
+
+static void test_new_craters_lift_what_is_over_them(void **state)
+{
+    uint64_t random = fixture_seed(1);
+    uint32_t bad = 0, craters = 0;
+    (void)state;
+    for (uint32_t run = 0; run < RUNS; run++) {
+        text.used = 0;
+        scenario_text_add(&text,
+                          "world = { hz = %.1f; capacity = 256; };\n"
+                          "terrain = { source = \"flat\"; height_m = 100.0; spacing_m = 31.25; };\n"
+                          "collision = { shape = \"model\"; };\n",
+                          rates_hz[run]);
+        write_fires(&random);
+        fixture_open(&f, text.at);
+        steps_ground(&f, steps_waves, NULL);
+        put_vehicles(&random);
+        judged_continue(&f, &check, (uint32_t)(SECONDS * rates_hz[run]));
+        bad += count_bad();
+        craters += fixture_state(&f).head->crater_count;
+        physics_check_free(&check);
+        fixture_close(&f);
+    }
+    print_message("%u craters\n", craters);
+    assert_true(craters > RUNS * FIRES / 2);
+    assert_int_equal(bad, 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_new_craters_lift_what_is_over_them),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
