@@ -560,7 +560,8 @@ static void mark_deeper(struct end_guard *guard, const struct response_context *
             mark_pair(guard, context, guard->pair[i].pair);
     }
     for (uint32_t i = 0; i < guard->count; i++) {
-        if (guarded(context, guard->row[i]) && ground_placement_sinks(context, guard->row[i]))
+        if (guarded(context, guard->row[i]) &&
+            ground_placement_sinks(context, guard->row[i], i < guard->moved))
             mark(guard, context, guard->row[i]);
     }
 }
@@ -592,6 +593,7 @@ static void run_round(struct end_guard *guard, struct response_context *context)
         stand_now(guard, context, row);
         look_at(guard, row);
     }
+    guard->moved = guard->count;
 }
 
 /* Lists a side of a pair unless it ends the frame where it began it. */
@@ -770,6 +772,7 @@ void end_guard_run(struct end_guard *guard, const struct resting *resting,
         if (!free->owned[row] && guarded(context, row) && path_change_grounded(context, row))
             ground_placement_put(context, row, entities_position(e, row), e->heading[row]);
     }
+    guard->moved = guard->count;
     look_at_met(guard, context);
     if (!context->contacts_sleep || motion->changes != 0)
         look_at_drifting(guard, context);

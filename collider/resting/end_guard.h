@@ -32,6 +32,7 @@ struct end_guard {
     const struct vec3 *drift; /* free_bodies.h */
     uint32_t *row;            /* rows to look at in this round */
     uint32_t count;
+    uint32_t moved; /* the first ones, which the collider has moved: in a later round all */
     uint32_t *back; /* rows that go back in this round */
     uint32_t back_count;
     uint32_t *touched; /* rows that have gone back in this frame */

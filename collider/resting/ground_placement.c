@@ -7,6 +7,7 @@
 #include "world/world.h"
 
 #define SINKS_M       0.02 /* as deep may a wreck at rest be in the ground */
+#define PUSHED_M      0.05 /* and one that rolls or slides, as of all that the ground bears */
 #define SHELL_SINKS_M 0.01 /* and the shell of a vehicle that another body pushes */
 #define EXACT_M       1e-8 /* error of a depth: less is no deepening of a greater depth */
 
@@ -122,15 +123,16 @@ static bool shell_sinks(const struct response_context *context, uint32_t row)
     return now > SHELL_SINKS_M && now > shell_depth_of(context, w, row) + EXACT_M;
 }
 
-bool ground_placement_sinks(const struct response_context *context, uint32_t row)
+bool ground_placement_sinks(const struct response_context *context, uint32_t row, bool moved)
 {
     const struct entities *w = &context->motion->before, *e = &context->next->entities;
     if (context->world->kinds[e->kind[row]].domain == DOMAIN_SEA)
         return false;
     if (e->state[row] == ENTITY_ACTIVE && e->flags[row] & ENTITY_FLAG_CHASSIS)
         return shell_sinks(context, row);
-    if (context->motion->change[row] == 0 || e->state[row] != ENTITY_WRECK)
+    bool struck = context->motion->change[row] != 0;
+    if (e->state[row] != ENTITY_WRECK || !(struck || moved))
         return false;
     double now = clearance_of(context, e, row);
-    return now < -SINKS_M && now < clearance_of(context, w, row) - EXACT_M;
+    return now < (struck ? -SINKS_M : -PUSHED_M) && now < clearance_of(context, w, row) - EXACT_M;
 }

@@ -23,7 +23,7 @@ struct exit_slope ground_placement_slope(const struct response_context *context,
 
 /* Returns true for a wreck, or a vehicle on its springs, that ends the frame deeper in the ground
  * than it began it: other bodies have driven it there. Less than what solvers leave does not
- * count. */
-bool ground_placement_sinks(const struct response_context *context, uint32_t row);
+ * count. moved: contacts have moved the row in this frame; an impact is known to have done so. */
+bool ground_placement_sinks(const struct response_context *context, uint32_t row, bool moved);
 
 #endif

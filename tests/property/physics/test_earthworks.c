@@ -1,20 +1,16 @@
 /* Land vehicles drive at random speeds into random works: walls up to 2.5 m, trenches up to 3 m
  * deep, ramps with a lip, and craters; or they hold their course over them. The judge looks at
  * every frame: no corner of a shell is in the ground by more than 2 cm, springs give back no more
- * than they took, and what holds its course has no corner in the ground. Prints its seed. */
-#include "supervisor/physics/physics_check.h"
+ * than they took, what holds its course has no corner in the ground, and wrecks are not shoved into
+ * it. Prints its seed. */
+#include "tests/support/judged.h"
 #include "tests/support/steps.h"
 #include "world/maths/random.h"
 #include "world/params.h"
 
-#include <stdarg.h>
-#include <stddef.h>
-#include <setjmp.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>
-
-#include <cmocka.h>
 
 #define LANES  24u
 #define FRAMES (12 * 60)
@@ -134,10 +130,49 @@ static void test_vehicles_on_their_course_stay_out_of_works_and_craters(void **s
     }
 }
 
+/* Tanks that hold their course shove trucks' wrecks along trenches into the walls at the ends. At
+ * 10 Hz a wreck goes 2.5 m in a frame. */
+static void test_wrecks_are_not_shoved_into_walls(void **state)
+{
+    (void)state;
+    size_t at = (size_t)snprintf(text, sizeof text,
+                                 "world = { hz = 10.0; };\ncollision = { shape = \"model\"; };\n"
+                                 "earthworks = (\n");
+    for (uint32_t lane = 0; lane < LANES; lane++)
+        at += (size_t)snprintf(
+            text + at, sizeof text - at,
+            "{ shape = \"trench\"; at = [%.1f, 25000.0]; heading_deg = 0.0;"
+            " length_m = 48.0; width_m = 26.0; depth_m = %.2f; edge_m = 2.0; }%s\n",
+            24000.0 + 40.0 * lane, random_of(1, lane, 0, 1.5, 3.0), lane + 1 < LANES ? "," : "");
+    snprintf(text + at, sizeof text - at, ");\n");
+    fixture_open(&f, text);
+    for (uint32_t lane = 0; lane < LANES; lane++) {
+        const double x = 24000.0 + 40.0 * lane, y = steps_ground_at(&f, x, 25000.0);
+        const double aside = random_of(1, lane, 1, -1.5, 1.5);
+        uint32_t wreck = fixture_put(&f, (struct fixture_entity){.kind = "truck",
+                                                                 .at = {x + aside, y, 24995.0},
+                                                                 .velocity = {0.0, 0.0, -20.0}});
+        steps_rows(&f).state[wreck] = ENTITY_WRECK;
+        fixture_put(&f, (struct fixture_entity){.kind = "tank",
+                                                .at = {x, y, 25006.0},
+                                                .velocity = {0.0, 0.0, -26.0},
+                                                .behaviour = BEHAVIOUR_HOLD});
+    }
+    judged_continue(&f, &check, 60);
+    const struct measure *deep = &check.measures.of[MEASURE_OF_WRECK_UNDERGROUND];
+    printf("wrecks at most %.3g m deeper under the ground: vehicle %u at %.2f s\n", deep->worst,
+           deep->body[0].id, deep->time_s);
+    assert_true(deep->taken > LANES);
+    assert_true(measure_good(&check.measures, MEASURE_OF_WRECK_UNDERGROUND));
+    physics_check_free(&check);
+    fixture_close(&f);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_vehicles_on_their_course_stay_out_of_works_and_craters),
+        cmocka_unit_test(test_wrecks_are_not_shoved_into_walls),
         cmocka_unit_test(test_shells_stay_out_of_the_ground_and_springs_give_what_they_took),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
