@@ -48,13 +48,21 @@ bool constant_course_take(const struct step_context *context, struct constant_co
     return batch->count == LANE_COUNT;
 }
 
-/* Lifts row i, whose place and pose are known, out of works and craters. */
-static void lift(const struct step_context *context, uint32_t i)
+/* Returns by how much row i of a table has to be lifted out of works and craters [m]. */
+static double lift_of(const struct step_context *context, const struct entities *e, uint32_t i)
 {
-    struct entities *m = context->m;
-    const struct rest_pose pose = {m->y[i], m->pitch[i], m->roll[i]};
-    m->y[i] += course_lift(context->world, context->craters, m->kind[i], m->x[i], m->z[i],
-                           m->heading[i], &pose);
+    const struct rest_pose pose = {e->y[i], e->pitch[i], e->roll[i]};
+    return course_lift(context->world, context->craters, e->kind[i], e->x[i], e->z[i],
+                       e->heading[i], &pose);
+}
+
+/* Lifts row i, which comes from its springs, out of works and craters. A place that its springs
+ * left in the ground comes out of it bit by bit. */
+static void lift_sprung(const struct step_context *context, uint32_t i)
+{
+    double left_m = lift_of(context, &context->committed->entities, i) -
+                    GROUND_VEHICLE_EASE_MPS * context->dt_s;
+    context->m->y[i] += maths_max(0.0, lift_of(context, context->m, i) - maths_max(0.0, left_m));
 }
 
 /* Writes height, pitch and roll of lane l, row i. A row that comes from its springs eases to them.
@@ -68,7 +76,7 @@ static void set_down(const struct step_context *context, const struct ground_pos
     m->pitch[i] = pose->pitch.lane[l];
     m->roll[i] = pose->roll.lane[l];
     if (pose->cratered.lane[l])
-        lift(context, i);
+        m->y[i] += lift_of(context, m, i);
     if (!(m->flags[i] & ENTITY_FLAG_CHASSIS))
         return;
     const struct rest_pose now = {m->y[i], m->pitch[i], m->roll[i]};
@@ -76,7 +84,7 @@ static void set_down(const struct step_context *context, const struct ground_pos
                                                      w->x[i], w->z[i], w->heading[i]);
     ground_vehicle_ease(context, i, &before, &now);
     if (pose->cratered.lane[l])
-        lift(context, i);
+        lift_sprung(context, i);
 }
 
 void constant_course_set_down(const struct step_context *context, struct constant_course *batch)

@@ -421,10 +421,7 @@ static inline void change_position(const struct step_context *context, struct gr
     }
 }
 
-/* A vehicle that comes back from its springs takes the height and the angles of the ground at these
- * rates, and then loses its flag. */
-#define EASE_MPS 0.04
-#define EASE_RPS 0.04
+#define EASE_RPS 0.04 /* as fast a vehicle that comes back takes the angles of the ground */
 
 /* Returns the pose of a row that comes back to that of the ground. before, now: of the ground, at
  * its old and at its new place. */
@@ -432,7 +429,8 @@ static struct rest_pose eased(const struct step_context *context, uint32_t i,
                               const struct rest_pose *before, const struct rest_pose *now)
 {
     const struct entities *w = &context->committed->entities;
-    const double most_m = EASE_MPS * context->dt_s, most_rad = EASE_RPS * context->dt_s;
+    const double most_m = GROUND_VEHICLE_EASE_MPS * context->dt_s,
+                 most_rad = EASE_RPS * context->dt_s;
     return (struct rest_pose){
         now->y_m + kinematics_approach(w->y[i] - before->y_m, 0.0, most_m),
         now->pitch_rad + kinematics_approach(w->pitch[i] - before->pitch_rad, 0.0, most_rad),

@@ -63,6 +63,10 @@ bool ground_vehicle_take_held(const struct step_context *context, struct ground_
  * a speed and in a direction that change little. It leaves other rows as they were (refused). */
 void ground_vehicle_move(const struct step_context *context, struct ground_vehicle *batch);
 
+/* A vehicle that comes back from its springs takes the height of the ground at this rate, and then
+ * loses its flag. */
+#define GROUND_VEHICLE_EASE_MPS 0.04
+
 /* Writes height, pitch and roll of row i, which has ENTITY_FLAG_CHASSIS and is calm. It goes with
  * the ground, and what it differs by from a row that follows the ground eases to nothing, bit by
  * bit. before, now: how such a row stands at its old and at its new place. Takes the flag away when

@@ -341,12 +341,11 @@ static bool drive_one(const struct step_context *context, uint32_t i,
     return blocked;
 }
 
-static void lift_one(const struct step_context *context, uint32_t i)
+static double lift_of(const struct step_context *context, const struct entities *e, uint32_t i)
 {
-    struct entities *m = context->m;
-    const struct rest_pose pose = {m->y[i], m->pitch[i], m->roll[i]};
-    m->y[i] += course_lift(context->world, context->craters, m->kind[i], m->x[i], m->z[i],
-                           m->heading[i], &pose);
+    const struct rest_pose pose = {e->y[i], e->pitch[i], e->roll[i]};
+    return course_lift(context->world, context->craters, e->kind[i], e->x[i], e->z[i],
+                       e->heading[i], &pose);
 }
 
 static void hold_one(const struct step_context *context, uint32_t i)
@@ -355,14 +354,15 @@ static void hold_one(const struct step_context *context, uint32_t i)
     double before = m->y[i];
     m->y[i] = standing_height(context, i, m->x[i], m->z[i]);
     stand_on_ground(context, i);
-    lift_one(context, i);
+    m->y[i] += lift_of(context, m, i);
     if (m->flags[i] & ENTITY_FLAG_CHASSIS) {
         const struct entities *w = &context->committed->entities;
         const struct rest_pose ground = {m->y[i], m->pitch[i], m->roll[i]};
         const struct rest_pose was = course_lift_pose(context->world, context->craters, m->kind[i],
                                                       w->x[i], w->z[i], w->heading[i]);
         ground_vehicle_ease(context, i, &was, &ground);
-        lift_one(context, i);
+        double left_m = lift_of(context, w, i) - GROUND_VEHICLE_EASE_MPS * context->dt_s;
+        m->y[i] += maths_max(0.0, lift_of(context, m, i) - maths_max(0.0, left_m));
     }
     m->vy[i] = (m->y[i] - before) / context->dt_s;
 }

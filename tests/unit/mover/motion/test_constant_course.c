@@ -1,5 +1,6 @@
 /* Constant course: vehicles hold it in all events. */
 #include "tests/support/steps.h"
+#include "world/terrain/crater.h"
 #include "world/terrain/gridsquare.h"
 
 #include <stdarg.h>
@@ -142,6 +143,32 @@ static void test_hold_begins_without_a_jump(void **state)
     assert_true(steps_speed(&f, row) > 8.0);
 }
 
+/* Springs left a vehicle 5 cm deep in the rim of a crater, out of which the ground lifts it. */
+static void test_hold_comes_out_of_the_ground_without_a_jump(void **state)
+{
+    (void)state;
+    struct state now = fixture_state(&f);
+    now.craters[0] = (struct crater){25006.0, 25000.0, 4.0f, 1.5f, 0};
+    for (int buffer = 0; buffer < 2; buffer++)
+        f.view.w[buffer].head->crater_count = 1;
+    uint32_t row = put("tank", 25000.0, 25000.0, 100.0, (struct vec3){0.0, 0.0, 0.0});
+    fixture_run(&f, 150); /* it is calm */
+    const double stands_m = steps_rows(&f).y[row];
+    assert_true(stands_m > 100.1);
+    steps_rows(&f).y[row] -= 0.05;
+    steps_rows(&f).flags[row] |= ENTITY_FLAG_CHASSIS;
+    double most_m = 0.0, before_m = stands_m - 0.05;
+    for (uint32_t frame = 0; frame < 120; frame++) {
+        fixture_run(&f, 1);
+        most_m = maths_max(most_m, steps_rows(&f).y[row] - before_m);
+        before_m = steps_rows(&f).y[row];
+    }
+    printf("at most %.3f mm in a frame\n", 1e3 * most_m);
+    assert_true(most_m > 0.0 && most_m < 0.0015);
+    assert_true(fabs(before_m - stands_m) < 1e-9);
+    assert_false(steps_rows(&f).flags[row] & ENTITY_FLAG_CHASSIS);
+}
+
 int main(void)
 {
 #define TEST(function)                                                                             \
@@ -152,6 +179,7 @@ int main(void)
         TEST(test_hold_follows_the_ground_and_asks_nothing_of_it),
         TEST(test_hold_leaves_the_world_at_its_edge),
         TEST(test_hold_begins_without_a_jump),
+        TEST(test_hold_comes_out_of_the_ground_without_a_jump),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
