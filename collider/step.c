@@ -48,6 +48,7 @@ int collider_init(struct collider *collider, const struct world *world,
         resting_init(&collider->resting, world, workers) != 0 ||
         free_bodies_init(&collider->free, world, workers) != 0 ||
         end_guard_init(&collider->guard, world, workers) != 0 ||
+        sphere_parting_init(&collider->spheres, world) != 0 ||
         charges_init(&collider->charges, world) != 0 ||
         pair_list_init(&collider->pairs, pair_filter_pairs_first(world)) != 0 ||
         pair_list_init(&collider->ends, 2 * (uint64_t)pair_filter_pairs_first(world)) != 0 ||
@@ -73,6 +74,7 @@ void collider_free(struct collider *collider)
     resting_free(&collider->resting);
     free_bodies_free(&collider->free);
     end_guard_free(&collider->guard);
+    sphere_parting_free(&collider->spheres);
     charges_free(&collider->charges);
     method_workspace_free(collider->workspace);
     pair_list_free(&collider->pairs);
@@ -290,12 +292,18 @@ static void settle_on_new_ground(const struct step *step, struct response_contex
     ground_placement_dug(context, known);
 }
 
+static bool is_discrete(const struct world *world)
+{
+    return method_discrete((enum method)world->params->collision.method);
+}
+
 static void collide_all(struct step *step, struct response_context *context)
 {
     struct collider *collider = step->collider;
     struct contact contact;
-    /* Spheres that touch are solved by impacts alone. */
+    /* Spheres that touch are solved by impacts alone; those that are deep in each other part. */
     bool rest = context->functions->joint && collider->motion.models;
+    bool spheres = context->functions->joint && !rest && !is_discrete(collider->world);
     if (is_crowded(collider))
         thread_pool_hold(collider->workers);
     find_pairs(step, context);
@@ -303,6 +311,12 @@ static void collide_all(struct step *step, struct response_context *context)
     if (rest) {
         resting_solve(&collider->resting, context);
         free_bodies_solve(&collider->free, context);
+    } else if (spheres) {
+        struct contact_groups *groups = &collider->resting.groups;
+        contact_groups_find_begun(groups, context);
+        collider->resting.moved_count =
+            sphere_parting_run(&collider->spheres, context, groups->begun, groups->begun_count,
+                               collider->resting.moved);
     }
     contact_queue_find(&collider->contacts, &context->input);
     contact_queue_find_ends(&collider->contacts, &context->input, context->next->head->tick);

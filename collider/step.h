@@ -18,6 +18,7 @@
 #include "collider/resting/resting.h"
 #include "collider/motion/body_motion.h"
 #include "collider/response/explosion.h"
+#include "collider/sphere_parting.h"
 #include "world/checksum.h"
 #include "world/runtime/thread_pool.h"
 #include "world/terrain/crater.h"
@@ -41,6 +42,7 @@ struct collider {
     struct resting resting;
     struct free_bodies free;
     struct end_guard guard;
+    struct sphere_parting spheres;
     struct charges charges;
     struct method_workspace *workspace;
     struct pair_list pairs; /* what the method found */

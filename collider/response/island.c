@@ -1,6 +1,7 @@
 /* Solves the islands of one moment, and gives the bodies their new paths. */
 #include "collider/response/island.h"
 
+#include "collider/method/method.h"
 #include "collider/motion/free_fall.h"
 #include "collider/response/contact_impulse.h"
 #include "collider/response/island_gather.h"
@@ -112,14 +113,15 @@ static uint32_t local_of(const struct response_context *context, uint32_t *count
 /* Hulls have no depth that is right in all directions: where two edges cross, the normals of the
  * faces overstate it. Bodies on the ground and aircraft part by no more than this in an impact; the
  * rest is recovered while they are in contact, or the guard at the frame's end sends them back: two
- * jets that hooked into each other head-on were moved apart by 0.9 m in a frame [m]. */
+ * jets that hooked into each other head-on were moved apart by 0.9 m in a frame [m]. Spheres on
+ * the ground that are deep in each other part without impacts (collider/sphere_parting.h). */
 #define SHIFT_M 6e-3
 
-static void shift(struct island_body *body, struct vec3 by, bool hulls)
+static void shift(struct island_body *body, struct vec3 by, bool bit_by_bit)
 {
     body->shift = vec3_add(body->shift, by);
     double length = vec3_length(body->shift);
-    if (hulls && (body->grounded || body->flies) && length > SHIFT_M)
+    if (bit_by_bit && (body->grounded || body->flies) && length > SHIFT_M)
         body->shift = vec3_scale(body->shift, SHIFT_M / length);
 }
 
@@ -129,7 +131,10 @@ static void move_apart(const struct response_context *context, const struct isla
                        const struct solver_contact *contact)
 {
     struct island *island = context->island;
-    bool hulls = context->world->params->collision.shape == SHAPE_MODEL;
+    const struct collision_params *how = &context->world->params->collision;
+    bool hulls = how->shape == SHAPE_MODEL;
+    bool parts = !method_discrete((enum method)how->method) && met->body_b != BODY_FIXED &&
+                 island->body[met->body_a].grounded && island->body[met->body_b].grounded;
     double depth = met->impact.depth_m;
     if (!(depth > ROUNDING_M))
         return;
@@ -138,9 +143,9 @@ static void move_apart(const struct response_context *context, const struct isla
     double distance = (depth + (hulls ? SKIN_M : 0.0)) / maths_max(slant, 0.5);
     const struct solver_body *a = &island->solve[contact->a], *b = &island->solve[contact->b];
     double la = a->inverse_mass.x, lb = b->inverse_mass.x;
-    shift(&island->body[met->body_a], vec3_scale(n, -distance * la / (la + lb)), hulls);
+    shift(&island->body[met->body_a], vec3_scale(n, -distance * la / (la + lb)), hulls || parts);
     if (met->body_b != BODY_FIXED)
-        shift(&island->body[met->body_b], vec3_scale(n, distance * lb / (la + lb)), hulls);
+        shift(&island->body[met->body_b], vec3_scale(n, distance * lb / (la + lb)), hulls || parts);
 }
 
 /* Gives bodies in free space the momentum back that the shift took. */

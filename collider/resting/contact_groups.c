@@ -524,6 +524,18 @@ static void find_new(struct contact_groups *groups, struct response_context *con
     }
 }
 
+static bool is_any(const struct response_context *context, uint32_t row)
+{
+    (void)context;
+    (void)row;
+    return true;
+}
+
+void contact_groups_find_begun(struct contact_groups *groups, struct response_context *context)
+{
+    list_all_new(groups, context, is_any);
+}
+
 void contact_groups_find(struct contact_groups *groups, struct response_context *context)
 {
     const struct state *committed = context->motion->committed;

@@ -29,6 +29,9 @@ struct contact_groups {
 int contact_groups_init(struct contact_groups *groups, const struct world *world);
 void contact_groups_free(struct contact_groups *groups);
 
+/* Lists the bodies that are new in this frame and near others in groups->begun. */
+void contact_groups_find_begun(struct contact_groups *groups, struct response_context *context);
+
 /* Finds the pairs of the groups that are awake: the table's contacts between bodies that the ground
  * holds, and of those with walls. Adds the pairs of bodies that are new in this frame,
  * because they may begin overlapped. Computes the paths of their rows. */

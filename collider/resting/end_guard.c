@@ -543,7 +543,7 @@ static double way_before(struct end_guard *guard, const struct response_context 
  * 1 mm seems to be deep in it. */
 static void heed_ways(struct end_guard *guard, const struct response_context *context)
 {
-    for (uint32_t i = 0; i < guard->pair_count; i++) {
+    for (uint32_t i = 0; context->motion->models && i < guard->pair_count; i++) {
         struct guard_pair *one = &guard->pair[i];
         if (one->deeper && context->contacts->marks[one->pair] & CONTACT_PARTS)
             one->deeper = way_out(guard, context, &context->next->entities, one->pair) >

@@ -115,12 +115,12 @@ done
 # Its first four minutes, with fire, craters, crashes and wrecks. `make judge` looks at an hour.
 check "four minutes of the default world are within the bounds" "$physics_hour" "$bin" hunter-liggett 14400
 
-# --- a bound that is passed: spheres that begin in each other are moved apart by metres in a frame ----
+# --- a bound that is passed: npsnet2 finds spheres in each other, and moves them apart by metres in a frame
 python3 - >edge.cfg <<'P'
 import math
 print('world = { name = "edge"; seed = 2; capacity = 64; };')
 print('terrain = { source = "flat"; height_m = 100.0; };')
-print('collision = { shape = "sphere"; };')
+print('collision = { shape = "sphere"; method = "npsnet2"; };')
 vehicles = []
 for i in range(40):
     angle, away = i * 2.4, 1.2 * math.sqrt(i)
