@@ -328,6 +328,8 @@ static void collide_all(struct step *step, struct response_context *context)
     settle_on_new_ground(step, context);
     if (context->functions->joint)
         end_guard_run(&collider->guard, &collider->resting, &collider->free, context);
+    else
+        ground_placement_changed(context);
     if (rest)
         turret_guard_run(context);
     if (context->functions->joint)

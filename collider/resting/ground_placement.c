@@ -1,6 +1,7 @@
 /* Heights under bodies that have been moved, and depths of those that have been pushed. */
 #include "collider/resting/ground_placement.h"
 
+#include "collider/response/path_change.h"
 #include "world/body_points.h"
 #include "world/course_lift.h"
 #include "world/vehicle_shell.h"
@@ -63,6 +64,17 @@ void ground_placement_dug(struct response_context *context, uint32_t first)
     const struct entities *e = &context->next->entities;
     for (uint32_t row = 0; row < context->next->head->used; row++) {
         if (holds_course(context, row) && is_dug_under(context, first, row))
+            ground_placement_put(context, row, entities_position(e, row), e->heading[row]);
+    }
+}
+
+void ground_placement_changed(struct response_context *context)
+{
+    const struct entities *e = &context->next->entities;
+    const struct body_motion *motion = context->motion;
+    for (uint32_t i = 0; i < motion->changes; i++) {
+        uint32_t row = motion->row[i];
+        if (e->state[row] == ENTITY_ACTIVE && path_change_grounded(context, row))
             ground_placement_put(context, row, entities_position(e, row), e->heading[row]);
     }
 }

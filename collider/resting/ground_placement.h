@@ -16,6 +16,11 @@ void ground_placement_put(struct response_context *context, uint32_t row, struct
  * what digs a crater and take to their springs. */
 void ground_placement_dug(struct response_context *context, uint32_t first);
 
+/* Puts the vehicles whose path a response has changed on the ground where they end the frame: a
+ * response without a guard at the frame's end leaves them on the straight way to where they would
+ * have been. */
+void ground_placement_changed(struct response_context *context);
+
 /* Returns the slope of the ground under a pair when the frame begins: the mean of both sides, that
  * of the first where the second is a fixed object, none on water. */
 struct exit_slope ground_placement_slope(const struct response_context *context, uint32_t a,

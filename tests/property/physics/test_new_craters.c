@@ -1,9 +1,11 @@
 /* Bombs and shells dig craters under, beside and before vehicles that hold their course on hills.
  * The judge looks at every frame: the ground lifts them as far as a crater is under them, in the
- * frame that digs it, and no crater lifts a vehicle beside it. SEED=n draws others. */
+ * frame that digs it, and no crater lifts a vehicle beside it. A response without a guard at the
+ * frame's end leaves vehicles on the ground, too. SEED=n draws others. */
 #include "tests/support/judged.h"
 #include "tests/support/scenario_text.h"
 #include "tests/support/steps.h"
+#include "world/terrain/crater.h"
 
 #include <stdint.h>
 #include <stdio.h>
@@ -91,10 +93,38 @@ static void test_new_craters_lift_what_is_over_them(void **state)
     assert_int_equal(bad, 0);
 }
 
+/* Pairs of vehicles drive into each other in craters, each pair in one of its own. */
+static void test_figure_8_leaves_vehicles_on_the_ground(void **state)
+{
+    uint64_t random = fixture_seed(1);
+    (void)state;
+    fixture_open(&f, "collision = { shape = \"model\"; response = \"figure8\"; };");
+    struct state now = fixture_state(&f);
+    for (uint32_t i = 0; i < VEHICLES; i++) {
+        double x = 2.0 * APART_M * i + 25000.0, z = 25000.0;
+        now.craters[i] = (struct crater){x + fixture_uniform(&random, 0.0, 12.0), z, 4.0f, 1.2f, 0};
+        (void)steps_put_driving(&f, kinds[i % 5], x, z, fixture_uniform(&random, 60.0, 120.0), 5.0);
+        (void)steps_put_driving(&f, kinds[i % 3], x + 16.0, z,
+                                fixture_uniform(&random, 240.0, 300.0), 5.0);
+    }
+    for (int buffer = 0; buffer < 2; buffer++)
+        f.view.w[buffer].head->crater_count = VEHICLES;
+    fixture_run(&f, 1); /* the ground lifts them */
+    judged_continue(&f, &check, 240);
+    const struct measure *height = &check.measures.of[MEASURE_OF_HEIGHT];
+    print_message("%lu collisions, at most %.2g m off the ground\n",
+                  (unsigned long)fixture_event_count(&f, EVENT_COLLISION), height->worst);
+    assert_true(fixture_event_count(&f, EVENT_COLLISION) > VEHICLES / 2);
+    assert_true(measure_good(&check.measures, MEASURE_OF_HEIGHT));
+    physics_check_free(&check);
+    fixture_close(&f);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_new_craters_lift_what_is_over_them),
+        cmocka_unit_test(test_figure_8_leaves_vehicles_on_the_ground),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
