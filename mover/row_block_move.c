@@ -70,6 +70,12 @@ static void move_land(const struct step_context *context, struct batches *batche
     ground_vehicle_move(context, land);
     for (int l = 0; l < land->count; l++) {
         uint32_t i = land->row[l];
+        if (land->refused.lane[l]) {
+            const struct desired_motion desired = ground_vehicle_desired(land, l);
+            chassis_disturb(context, i);
+            move_chassis(context, batches, i, &desired);
+            continue;
+        }
         if (context->m->flags[i] & ENTITY_FLAG_CHASSIS)
             batches->motion[i - batches->block->first] = MOTION_AGENT;
         after_motion(context, batches, i, land->blocked.lane[l] != 0);

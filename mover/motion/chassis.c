@@ -19,11 +19,12 @@
 
 /* A chassis is calm below these. */
 #define JOLT_S        0.1  /* a jolt counts for so long */
-#define CALM_MPS      0.15 /* speed off the ground */
-#define CALM_RPS      0.15 /* roll and pitch */
+#define CALM_MPS      0.15 /* speed towards or from the pose of a vehicle that follows the ground */
+#define CALM_RPS      0.15 /* the same of roll and pitch */
 #define CALM_SLIP_MPS 0.4  /* to the side */
+#define CALM_SLIP     0.09 /* or as a share of its speed: tyres that hold it on a side slope */
 #define CALM_LATERAL  0.8  /* share of the greatest lateral acceleration */
-#define CALM_TILT_RAD 0.06 /* from the angles of a vehicle that follows the ground */
+#define CALM_TILT_RAD 0.06 /* from the angles of that vehicle */
 
 /* Upright ground harms as a fixed object does (collider/response/deformation.h).
  *
@@ -38,6 +39,20 @@ void chassis_disturb(const struct step_context *context, uint32_t i)
 {
     context->m->flags[i] |= ENTITY_FLAG_CHASSIS;
     context->m->jolt_tick[i] = (uint32_t)context->tick;
+}
+
+bool chassis_holds(const struct kind *kind, double friction, const struct chassis_slope *slope)
+{
+    if (fabs(slope->pitch_rad) <= CHASSIS_TILT_RAD && fabs(slope->roll_rad) <= CHASSIS_TILT_RAD)
+        return true;
+    double pitch_sine, pitch_cosine, roll_sine, roll_cosine;
+    maths_sincos(slope->pitch_rad, &pitch_sine, &pitch_cosine);
+    maths_sincos(slope->roll_rad, &roll_sine, &roll_cosine);
+    const double along = slope->gain_mps2 + GRAVITY_MPS2 * pitch_sine;
+    const double across = slope->lateral_mps2 - GRAVITY_MPS2 * roll_sine;
+    const double weight = pitch_cosine * roll_cosine, grip = weight * friction;
+    return along * along + across * across <= grip * grip * GRAVITY_MPS2 * GRAVITY_MPS2 &&
+           fabs(across) <= weight * drivetrain_lateral(kind, friction);
 }
 
 /* Returns the slope of the ground between two points of the row, at this distance in front and to
@@ -116,47 +131,77 @@ static void hold(const struct step_context *context, uint32_t i, struct rigid_bo
     m->spin_x[i] = m->spin_y[i] = m->spin_z[i] = 0.0;
 }
 
-/* Returns true if row i lies as a vehicle there that follows the ground. Otherwise it would be
- * lifted from its wheels when it follows the ground, beside a wall for one. Nor may such a vehicle
- * be in the ground there. uneven: craters or earthworks may be under it. */
-static bool lies_on_ground(const struct step_context *context, uint32_t i, bool uneven)
+/* Where a row is, and how it heads and leans. */
+struct stance {
+    struct vec3 at;
+    double heading_rad, pitch_rad, roll_rad;
+};
+
+static struct stance stance_of(const struct entities *m, uint32_t i)
 {
-    const struct entities *m = context->m;
-    const struct kind *kind = &context->world->kinds[m->kind[i]];
-    const struct terrain *terrain = &context->world->terrain;
-    struct rest_pose pose =
-        rest_pose_of(terrain, context->craters, kind, m->x[i], m->z[i], m->heading[i]);
-    if (uneven) {
-        const struct vec3 at = {m->x[i], pose.y_m, m->z[i]};
-        const struct mat3 turn =
-            rotation_matrix(rotation_of(m->heading[i], pose.pitch_rad, pose.roll_rad));
-        if (vehicle_shell_depth(terrain, context->craters, kind, VEHICLE_SHELL_ENDS, at, &turn) >
-            0.0)
-            return false;
-    }
-    return fabs(m->y[i] - pose.y_m) <= CHASSIS_LIFT_M &&
-           fabs(maths_wrap_half(m->pitch[i] - pose.pitch_rad)) <= CALM_TILT_RAD &&
-           fabs(maths_wrap_half(m->roll[i] - pose.roll_rad)) <= CALM_TILT_RAD;
+    return (struct stance){entities_position(m, i), m->heading[i], m->pitch[i], m->roll[i]};
 }
 
-/* Returns true if the ground, the load and the motion are those of a vehicle that follows the
- * ground. */
-static bool is_calm(const struct chassis *chassis)
+/* Returns by how much a row's height and angles are above those of a vehicle that follows the
+ * ground there, whose pose is *ground afterwards. */
+static struct rest_pose off_ground(const struct step_context *context, const struct kind *kind,
+                                   const struct stance *stance, struct rest_pose *ground)
+{
+    *ground = rest_pose_of(&context->world->terrain, context->craters, kind, stance->at.x,
+                           stance->at.z, stance->heading_rad);
+    return (struct rest_pose){stance->at.y - ground->y_m,
+                              maths_wrap_half(stance->pitch_rad - ground->pitch_rad),
+                              maths_wrap_half(stance->roll_rad - ground->roll_rad)};
+}
+
+/* Returns true if the row of the chassis lies as a vehicle there that follows the ground, and moves
+ * as it in the sub-step. Otherwise it would be lifted from its wheels when it follows the ground,
+ * beside a wall for one. Nor may such a vehicle be in the ground there. before: where it was. */
+static bool follows_ground(const struct chassis *chassis, uint32_t i, const struct stance *before)
+{
+    const struct step_context *context = chassis->context;
+    const struct kind *kind = chassis->kind;
+    const struct stance now = stance_of(context->m, i);
+    const double most_m = CALM_MPS * context->dt_s, most_rad = CALM_RPS * context->dt_s;
+    struct rest_pose ground, ground_before;
+    const struct rest_pose off = off_ground(context, kind, &now, &ground);
+    if (fabs(off.y_m) > CHASSIS_LIFT_M || fabs(off.pitch_rad) > CALM_TILT_RAD ||
+        fabs(off.roll_rad) > CALM_TILT_RAD)
+        return false;
+    const struct rest_pose was = off_ground(context, kind, before, &ground_before);
+    if (fabs(off.y_m - was.y_m) > most_m || fabs(off.pitch_rad - was.pitch_rad) > most_rad ||
+        fabs(off.roll_rad - was.roll_rad) > most_rad)
+        return false;
+    const struct vec3 at = {now.at.x, ground.y_m, now.at.z};
+    const struct mat3 turn =
+        rotation_matrix(rotation_of(now.heading_rad, ground.pitch_rad, ground.roll_rad));
+    return !chassis->cratered || vehicle_shell_depth(&context->world->terrain, context->craters,
+                                                     kind, VEHICLE_SHELL_ENDS, at, &turn) <= 0.0;
+}
+
+/* Returns true if the load and the motion along the ground are those of a vehicle that follows the
+ * ground. before: the body when the sub-step began. */
+static bool is_calm(const struct chassis *chassis, const struct rigid_body *before)
 {
     const struct rigid_body *body = &chassis->body;
     const struct mat3 turn = rotation_matrix(body->turn);
     const struct vec3 ahead = {turn.m[0][0], turn.m[1][0], turn.m[2][0]};
-    const struct vec3 up = {turn.m[0][1], turn.m[1][1], turn.m[2][1]};
     const struct vec3 right = {turn.m[0][2], turn.m[1][2], turn.m[2][2]};
-    const struct vec3 spin = body->spin, velocity = body->velocity;
-    double lateral = fabs(vec3_dot(velocity, ahead) * spin.y);
+    const double forward = vec3_dot(body->velocity, ahead);
+    const double faster = vec3_length(body->velocity) - vec3_length(before->velocity);
+    struct chassis_slope slope = {.gain_mps2 = faster / chassis->context->dt_s,
+                                  .lateral_mps2 = -forward * body->spin.y};
+    double heading;
+    rotation_angles(body->turn, &heading, &slope.pitch_rad, &slope.roll_rad);
+    if (forward < 0.0)
+        slope.gain_mps2 = -slope.gain_mps2;
     if (fording_is_water(chassis->context, body->centre.x, body->centre.z))
         return false; /* what follows the ground cannot cross water */
-    return chassis->level && up.y > maths_cos(CHASSIS_TILT_RAD) &&
-           fabs(vec3_dot(velocity, up)) < CALM_MPS &&
-           fabs(vec3_dot(velocity, right)) < CALM_SLIP_MPS &&
-           fabs(vec3_dot(spin, ahead)) < CALM_RPS && fabs(vec3_dot(spin, right)) < CALM_RPS &&
-           lateral < CALM_LATERAL * drivetrain_lateral(chassis->kind, chassis->friction);
+    return chassis->level && chassis_holds(chassis->kind, chassis->friction, &slope) &&
+           fabs(vec3_dot(body->velocity, right)) <
+               maths_max(CALM_SLIP_MPS, CALM_SLIP * fabs(forward)) &&
+           fabs(slope.lateral_mps2) <
+               CALM_LATERAL * drivetrain_lateral(chassis->kind, chassis->friction);
 }
 
 /* --- the row -----------------------------------------------------------------------------------*/
@@ -219,7 +264,7 @@ static bool substep(const struct step_context *context, uint32_t i,
 {
     struct entities *m = context->m;
     struct chassis chassis;
-    double x = m->x[i], z = m->z[i];
+    const struct stance from = stance_of(m, i);
     chassis_run_begin(&chassis, context, i, desired);
     if (!burn(context, i, chassis.kind, desired))
         chassis.most_mps = 0.0;
@@ -232,8 +277,8 @@ static bool substep(const struct step_context *context, uint32_t i,
     if (desired->driven)
         m->dodge[i] = (float)chassis.drivetrain.wheel;
     take_harm(&chassis, i);
-    bool blocked = stop_at_edge(context, i, x, z) || chassis.drowns;
-    if (desired->driven || !is_calm(&chassis) || !lies_on_ground(context, i, chassis.cratered))
+    bool blocked = stop_at_edge(context, i, from.at.x, from.at.z) || chassis.drowns;
+    if (desired->driven || !is_calm(&chassis, &before) || !follows_ground(&chassis, i, &from))
         m->jolt_tick[i] = (uint32_t)context->tick;
     return blocked || (desired->speed_mps != 0.0 && chassis.drivetrain.wanted_mps == 0.0);
 }

@@ -21,9 +21,10 @@
 #include "mover/context/step_context.h"
 
 /* A chassis is calm for so long before its vehicle follows the ground again [s]. */
-#define CHASSIS_CALM_S 2.0
+#define CHASSIS_CALM_S 1.0
 
-/* Greatest tilt of a vehicle that follows the ground, and greatest step that it drives over. */
+/* Up to this tilt a vehicle follows the ground however it drives; beyond, while its tyres hold it
+ * there. And the greatest step that it drives over. */
 #define CHASSIS_TILT_RAD  0.4363323129985824 /* 25 degrees */
 #define CHASSIS_LOW_CLIMB 1.2                /* share of max_slope_rad that low gear climbs */
 #define CHASSIS_STEP_M    0.3
@@ -35,6 +36,16 @@
  * wheels of a body on its springs do not stand on such edges, so with more it would come to float.
  */
 #define CHASSIS_LIFT_M 0.06
+
+/* How a vehicle leans on a slope, and how it gains speed ahead and to the right on the map. */
+struct chassis_slope {
+    double pitch_rad, roll_rad;
+    double gain_mps2, lateral_mps2;
+};
+
+/* Returns true if a vehicle of this kind leans by at most CHASSIS_TILT_RAD, or if its tyres hold it
+ * on ground with this friction: it neither slides nor leans over, and needs no springs. */
+bool chassis_holds(const struct kind *kind, double friction, const struct chassis_slope *slope);
 
 /* Returns true if row i, an active land vehicle, moves as a body in this frame. driven: a driver or
  * a script has its controls. */

@@ -28,6 +28,9 @@
 #define NEAR_M        1.0  /* between a body and works or craters that cannot be under it */
 #define LEAST_GAIN    0.1  /* [m/s2] a vehicle that can climb gains speed at least so fast */
 #define HALF_WAYS     3    /* so often the speed half way of a stretch is found again */
+#define GENTLE_RAD    0.4  /* on steeper slopes it would slide: it gains speed and brakes */
+#define GENTLE_MPS2   1.0  /* by so much at most, */
+#define GENTLE_SHARE  0.8  /* but brakes hard if it wants less than this share of its speed */
 
 double ground_vehicle_debris(const struct step_context *context, uint32_t i)
 {
@@ -135,6 +138,14 @@ bool ground_vehicle_take_held(const struct step_context *context, struct ground_
     return batch->count == LANE_COUNT;
 }
 
+struct desired_motion ground_vehicle_desired(const struct ground_vehicle *batch, int l)
+{
+    return (struct desired_motion){.heading_rad = batch->wanted_heading.lane[l],
+                                   .speed_mps = batch->wanted_mps.lane[l],
+                                   .held = batch->held.lane[l] != 0,
+                                   .turn = batch->turn.lane[l]};
+}
+
 /* --- four at once ------------------------------------------------------------------------------*/
 
 /* Comments describe one vehicle. Each function treats the four of vector h. */
@@ -227,12 +238,14 @@ static inline void pull(const struct ground_vehicle *batch, int h, const f64x4 *
 }
 
 /* The speed along the heading after the step. Agents brake as hard as their kind can, and stop
- * before they drive the other way: brakes give no speed. In a stretch an engine pulls as it does
- * half way: it gives less force at a higher speed. */
+ * before they drive the other way: brakes give no speed. On steep slopes they keep their speed
+ * gently. In a stretch an engine pulls as it does half way: it gives less force at a higher
+ * speed. */
 static inline void power(struct ground_vehicle *batch, int h, const f64x4 *wanted, f64x4 *forward,
                          double dt_s)
 {
     const f64x4 none = SIMD_EVERY(0.0), grip = SIMD_EVERY(GROUND_GRIP * GRAVITY_MPS2);
+    const f64x4 gentle = SIMD_EVERY(GENTLE_MPS2);
     f64x4 speed = SIMD_ABS(*forward);
     four_masks reverses = *wanted * *forward < none;
     four_masks braking = (SIMD_ABS(*wanted) < SIMD_ABS(*forward)) | reverses;
@@ -244,6 +257,10 @@ static inline void power(struct ground_vehicle *batch, int h, const f64x4 *wante
         f64x4 middle = speed + 0.5 * dt_s * gain;
         pull(batch, h, &middle, &back, &gain);
     }
+    four_masks steep = SIMD_ABS(batch->pitch.f64x4[h]) > GENTLE_RAD;
+    four_masks eases = steep & (SIMD_ABS(*wanted) > GENTLE_SHARE * speed);
+    hardest = SIMD_CHOOSE(eases, SIMD_MIN(hardest, gentle), hardest);
+    gain = SIMD_CHOOSE(steep, SIMD_MIN(gain, gentle), gain);
     f64x4 step = SIMD_CHOOSE(braking, hardest, gain) * dt_s;
     f64x4 aim = SIMD_CHOOSE(reverses, none, *wanted);
     kinematics_simd_approach(forward, &aim, &step);
@@ -585,7 +602,26 @@ static void find_jolts(const struct step_context *context, struct ground_vehicle
     }
 }
 
-/* Finds the lanes whose ground is too rough for a body that follows it: it leans, crosses the edge
+/* Returns true if the tyres of the row, which leans much, do not hold it there as it drives. */
+static bool slides(const struct step_context *context, const struct ground_vehicle *batch, int l,
+                   double forward)
+{
+    const struct entities *m = context->m;
+    const uint32_t i = batch->row[l];
+    const double dt_s = ground_vehicle_time_s(context, batch);
+    const double before =
+        m->vx[i] * batch->pose.sine.lane[l] - m->vz[i] * batch->pose.cosine.lane[l];
+    const double turned = maths_wrap_half(batch->heading.lane[l] - m->heading[i]);
+    const struct chassis_slope slope = {.pitch_rad = batch->pose.pitch.lane[l],
+                                        .roll_rad = batch->pose.roll.lane[l],
+                                        .gain_mps2 = (forward - before) / dt_s,
+                                        .lateral_mps2 = forward * turned / dt_s};
+    return !chassis_holds(
+        &context->world->kinds[m->kind[i]],
+        ground_grip_at(context, batch->pose.x.lane[l], batch->pose.z.lane[l]).friction, &slope);
+}
+
+/* Finds the lanes whose ground is too rough for a body that follows it: it slides, crosses the edge
  * of a crater, runs into water, leaves the ground over a crest, or gets into that of a hollow. */
 static inline void find_rough(const struct step_context *context, struct ground_vehicle *batch,
                               const union simd_lanes *forward)
@@ -593,18 +629,36 @@ static inline void find_rough(const struct step_context *context, struct ground_
     const double dt_s = ground_vehicle_time_s(context, batch);
     const f64x4 tilt = SIMD_EVERY(CHASSIS_TILT_RAD), step = SIMD_EVERY(CHASSIS_STEP_M);
     const f64x4 fall = SIMD_EVERY(GRAVITY_MPS2 * dt_s), lift = SIMD_EVERY(CHASSIS_LIFT_M);
+    union lane_masks leans;
+    four_masks any = {0};
     memset(&batch->walled, 0, sizeof batch->walled);
     for (int h = 0; h < LANE_FOURS; h++) {
         f64x4 pitch = batch->pose.pitch.f64x4[h], roll = batch->pose.roll.f64x4[h];
         f64x4 drop = forward->f64x4[h] * (batch->pitch.f64x4[h] - pitch);
-        batch->rough.f64x4[h] = batch->wades.f64x4[h] | (SIMD_ABS(pitch) > tilt) |
-                                (SIMD_ABS(roll) > tilt) | (batch->pose.step.f64x4[h] > step) |
+        batch->rough.f64x4[h] = batch->wades.f64x4[h] | (batch->pose.step.f64x4[h] > step) |
                                 (batch->pose.lift.f64x4[h] > lift) | (drop > fall);
+        leans.f64x4[h] = (SIMD_ABS(pitch) > tilt) | (SIMD_ABS(roll) > tilt);
+        any |= leans.f64x4[h];
+    }
+    for (int l = 0; SIMD_ANY(any) && l < batch->count; l++) {
+        if (leans.lane[l])
+            batch->rough.lane[l] |= -(int64_t)slides(context, batch, l, forward->lane[l]);
     }
     if (batch->frames > 1)
         return;
     find_hollows(context, batch);
     find_jolts(context, batch);
+}
+
+/* A row that comes back from its springs to ground that is too rough for it stays on them. It goes
+ * on with the speed and the spin that they gave it, so that the turn and the pull of a vehicle that
+ * follows the ground, which take no time, are not added to them. */
+static void keep_sprung(const struct step_context *context, struct ground_vehicle *batch)
+{
+    for (int l = 0; l < batch->count; l++) {
+        const bool comes_back = context->m->flags[batch->row[l]] & ENTITY_FLAG_CHASSIS;
+        batch->refused.lane[l] = comes_back ? batch->rough.lane[l] : 0;
+    }
 }
 
 /* Makes a row on rough ground a body on its springs, which goes on as before: an edge under it has
@@ -693,5 +747,7 @@ void ground_vehicle_move(const struct step_context *context, struct ground_vehic
     find_rough(context, batch, &under_power);
     if (batch->frames > 1)
         ground_stretch_refuse(context, batch, &rightward);
+    else
+        keep_sprung(context, batch);
     write_rows(context, batch);
 }

@@ -35,7 +35,7 @@ struct ground_vehicle {
     union lane_masks reaches;   /* it has the speed that it wants */
     union simd_lanes turned;    /* by which a stretch turns */
     union simd_lanes gain_mps2; /* and gains speed along its heading */
-    union lane_masks refused;   /* result, of a stretch: the row was not moved */
+    union lane_masks refused;   /* result: the row was not moved (ground_vehicle_move()) */
 };
 
 /* Returns the time by which the rows move. */
@@ -44,6 +44,9 @@ static inline double ground_vehicle_time_s(const struct step_context *context,
 {
     return context->dt_s * (double)batch->frames;
 }
+
+/* Returns the desired motion of the row in lane l, which has been moved or refused. */
+struct desired_motion ground_vehicle_desired(const struct ground_vehicle *batch, int l);
 
 /* Empties a batch of rows that move by so many frames. */
 void ground_vehicle_begin(struct ground_vehicle *batch, uint32_t frames);
@@ -60,7 +63,9 @@ bool ground_vehicle_take_held(const struct step_context *context, struct ground_
  *
  * A batch of stretches moves a row only where the motion of one long frame is that of many short
  * ones within some centimetres: on ground without craters, works and debris, not through water, at
- * a speed and in a direction that change little. It leaves other rows as they were (refused). */
+ * a speed and in a direction that change little. It leaves other rows as they were (refused). A
+ * batch of one frame leaves rows as they were that come from their springs and cannot follow the
+ * ground yet. */
 void ground_vehicle_move(const struct step_context *context, struct ground_vehicle *batch);
 
 /* A vehicle that comes back from its springs takes the height of the ground at this rate, and then

@@ -108,6 +108,8 @@ static double powered(const struct step_context *context, const struct kind *kin
     gain = maths_min(maths_max(gain, 0.1), rate);
     if (braking)
         gain = maths_min(BRAKES * rate, 0.7 * GRAVITY_MPS2);
+    if (fabs(pitch) > 0.4 && (!braking || fabs(wanted) > 0.8 * fabs(forward)))
+        gain = maths_min(gain, 1.0);
     return kinematics_approach(forward, wanted * forward < 0.0 ? 0.0 : wanted,
                                gain * context->dt_s);
 }
@@ -288,6 +290,7 @@ static bool drive_one(const struct step_context *context, uint32_t i,
     forward = powered(context, kind, pitch, forward, wanted);
     kinematics_steer(context, i, desired, turn_rate(kind, fast, forward));
     maths_sincos(m->heading[i], &sine, &cosine);
+    const double gain_mps2 = (forward - (m->vx[i] * sine - m->vz[i] * cosine)) / context->dt_s;
     rightward = kinematics_approach(rightward, 0.0, 0.7 * GRAVITY_MPS2 * context->dt_s);
 
     double vx = forward * sine + rightward * cosine;
@@ -321,7 +324,10 @@ static bool drive_one(const struct step_context *context, uint32_t i,
     entities_set_position(m, i, (struct vec3){x, y, z});
     stand_on_ground(context, i);
     int enters = enters_ground(context, i, &was);
-    if (fabs(m->pitch[i]) > CHASSIS_TILT_RAD || fabs(m->roll[i]) > CHASSIS_TILT_RAD ||
+    const struct chassis_slope slope = {m->pitch[i], m->roll[i], gain_mps2,
+                                        forward * maths_wrap_half(m->heading[i] - heading) /
+                                            context->dt_s};
+    if (!chassis_holds(kind, ground_grip_at(context, x, z).friction, &slope) ||
         forward * (pitch - m->pitch[i]) > GRAVITY_MPS2 * context->dt_s ||
         crater_step(context, i) > CHASSIS_STEP_M ||
         y - kinematics_ground(context, x, z) > CHASSIS_LIFT_M || wades || enters != 0 ||

@@ -1,5 +1,6 @@
 /* Land vehicles on their springs. The test prints a table: quantity, real value, ours, tolerance.
  * The real values are from Foss (Jane's), Hunnicutt, TM 9-2320-218 and TM 9-2320-209. */
+#include "mover/motion/chassis.h"
 #include "mover/motion/tyre.h"
 #include "tests/support/steps.h"
 #include "world/params.h"
@@ -443,7 +444,7 @@ static void go_back(uint32_t row, double *jump_m, double *speed_mps)
         double calm = (double)(fixture_state(&f).head->tick - e.jolt_tick[row]) / HZ;
         if (back)
             return;
-        if (calm < 1.9) /* not yet */
+        if (calm < CHASSIS_CALM_S - 0.1) /* not yet */
             continue;
         *jump_m = maths_max(*jump_m, vec3_length(off));
         *speed_mps = maths_max(*speed_mps, vec3_length(faster));

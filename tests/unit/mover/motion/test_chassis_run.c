@@ -1,6 +1,8 @@
 /* What the wheels of a body on its springs do: grip of the ground under each, hand brake, steering
- * wheel, engine brake, hard landings, and frames of different length. */
+ * wheel, engine brake, hard landings, and frames of different length. And when it needs no springs.
+ */
 #include "mover/motion/chassis_run.h"
+#include "mover/motion/chassis.h"
 #include "tests/support/steps.h"
 #include "world/params.h"
 
@@ -275,6 +277,119 @@ static void test_what_turns_over_within_a_frame_is_a_wreck(void **state)
     }
 }
 
+/* --- calm --------------------------------------------------------------------------------------*/
+
+/* Slopes that meet in edges across its way, 62 m apart, by an angle of 0.06 rad. */
+static double edges(double x, double z, const void *context)
+{
+    double place = (x - 25000.0) / 62.5;
+    (void)z, (void)context;
+    return 100.0 + 1.875 * fabs(place - 2.0 * floor(0.5 * place) - 1.0);
+}
+
+/* Its springs move at each edge, and so does a vehicle that follows the ground. */
+static void test_it_goes_back_to_uneven_ground_while_it_drives_on(void **state)
+{
+    static const char *const kinds[] = {"tank", "jeep", "truck"};
+    (void)state;
+    for (size_t n = 0; n < sizeof kinds / sizeof kinds[0]; n++) {
+        reopen("");
+        steps_ground(&f, edges, NULL);
+        uint32_t row = put(kinds[n], 25000.0, 25000.0, 0.0, 12.0), frame = 0;
+        struct entities e = steps_rows(&f);
+        e.behaviour[row] = e.order[row] = BEHAVIOUR_PATROL;
+        e.goal_x[row] = 29000.0, e.goal_z[row] = 25000.0;
+        e.throttle[row] = 0.7f;
+        e.flags[row] |= ENTITY_FLAG_CHASSIS;
+        for (; frame < 10 * HZ && e.flags[row] & ENTITY_FLAG_CHASSIS; frame++) {
+            fixture_run(&f, 1);
+            e = steps_rows(&f);
+        }
+        printf("%s on springs for %.1f s at %.1f m/s\n", kinds[n], frame / (double)HZ,
+               speed_of(row));
+        assert_true(frame < 8 * HZ && speed_of(row) > 8.0);
+    }
+}
+
+/* Returns true if the tyres of a kind hold it on dirt. */
+static bool holds(const char *kind, double pitch_deg, double roll_deg, double gain_mps2,
+                  double lateral_mps2)
+{
+    const struct chassis_slope slope = {pitch_deg * RAD_PER_DEG, roll_deg * RAD_PER_DEG, gain_mps2,
+                                        lateral_mps2};
+    return chassis_holds(steps_kind(&f, kind), 0.65, &slope);
+}
+
+static void test_tyres_hold_it_on_a_slope_up_to_their_grip(void **state)
+{
+    (void)state;
+    assert_true(holds("tank", 29.0, 0.0, 0.0, 0.0) && holds("tank", -29.0, 0.0, 0.0, 0.0));
+    assert_true(holds("tank", 0.0, 29.0, 0.0, 0.0) && holds("tank", 0.0, -29.0, 0.0, 0.0));
+    assert_false(holds("tank", 34.0, 0.0, 0.0, 0.0) || holds("tank", 0.0, -34.0, 0.0, 0.0));
+    assert_false(holds("tank", 26.0, 26.0, 0.0, 0.0));
+    /* Down the slope brakes need grip, and up it the engine does; across it turns uphill do. */
+    assert_false(holds("tank", -29.0, 0.0, -2.0, 0.0) || holds("tank", 29.0, 0.0, 2.0, 0.0));
+    assert_true(holds("tank", -29.0, 0.0, 2.0, 0.0) && holds("tank", 29.0, 0.0, -2.0, 0.0));
+    assert_false(holds("tank", 0.0, 29.0, 0.0, -2.0) || holds("tank", 0.0, -29.0, 0.0, 2.0));
+    assert_true(holds("tank", 0.0, 29.0, 0.0, 2.0) && holds("tank", 0.0, -29.0, 0.0, -2.0));
+    steps_kind(&f, "truck")->centre_height_m = 2.0; /* it would lean over before it slides */
+    assert_true(holds("truck", 28.0, 0.0, 0.0, 0.0) && !holds("truck", 0.0, 28.0, 0.0, 0.0));
+}
+
+#define SIDE_DEG 28.0
+
+/* Puts an agent's vehicle that comes from its springs on a side slope that rises to the east. It
+ * drives to the north and wants to turn uphill harder than its tyres hold it. */
+static uint32_t put_on_side_slope(const char *kind, double mps)
+{
+    reopen("");
+    steps_plane(&f, maths_sin(SIDE_DEG * RAD_PER_DEG) / maths_cos(SIDE_DEG * RAD_PER_DEG), 0.0);
+    uint32_t row = put(kind, 25000.0, 25000.0, 0.0, 0.0);
+    struct entities e = steps_rows(&f);
+    e.behaviour[row] = e.order[row] = BEHAVIOUR_PATROL;
+    e.goal_x[row] = 29000.0, e.goal_z[row] = 25000.0;
+    e.heading[row] = 0.0;
+    e.roll[row] = -SIDE_DEG * RAD_PER_DEG;
+    e.vx[row] = 0.0, e.vz[row] = -mps;
+    e.throttle[row] = 0.5f, e.steer[row] = 1.0f;
+    e.flags[row] |= ENTITY_FLAG_CHASSIS;
+    e.jolt_tick[row] = (uint32_t)fixture_state(&f).head->tick - 2 * HZ;
+    return row;
+}
+
+/* Returns the energy of its motion on the map and of its turn over its mass [J/kg]. */
+static double motion_jpkg(const char *name, uint32_t row)
+{
+    const struct kind *kind = steps_kind(&f, name);
+    const double speed = speed_of(row), spin = steps_rows(&f).spin_y[row];
+    const double square = kind->length_m * kind->length_m + kind->width_m * kind->width_m;
+    return 0.5 * speed * speed + spin * spin * square / 24.0;
+}
+
+/* A vehicle that follows the ground turns at once. Where that throws it back on its springs, they
+ * turn it as its tyres can. */
+static void test_it_gets_no_turn_at_once_where_it_cannot_go_back(void **state)
+{
+    static const char *const kinds[] = {"howitzer", "flak", "truck", "hamburger"};
+    (void)state;
+    for (size_t n = 0; n < sizeof kinds / sizeof kinds[0]; n++) {
+        uint32_t row = put_on_side_slope(kinds[n], 7.0), sprung = 0;
+        double before = motion_jpkg(kinds[n], row), most = 0.0;
+        for (uint32_t frame = 0; frame < HZ; frame++) {
+            steps_rows(&f).steer[row] = 1.0f;
+            fixture_run(&f, 1);
+            double now = motion_jpkg(kinds[n], row);
+            bool springs = steps_rows(&f).flags[row] & ENTITY_FLAG_CHASSIS;
+            sprung += springs;
+            most = maths_max(most, springs ? now - before : 0.0);
+            before = now;
+        }
+        printf("%s on springs for %u frames gains %.2f J/kg in a frame at most\n", kinds[n], sprung,
+               most);
+        assert_true(sprung > HZ / 2 && most < 0.4);
+    }
+}
+
 int main(void)
 {
 #define T(name) cmocka_unit_test_setup_teardown(name, open_world, fixture_teardown)
@@ -289,6 +404,9 @@ int main(void)
         T(test_a_bank_harms_as_a_building_does),
         T(test_a_drop_is_the_same_at_10_and_60_hz),
         T(test_what_turns_over_within_a_frame_is_a_wreck),
+        T(test_it_goes_back_to_uneven_ground_while_it_drives_on),
+        T(test_tyres_hold_it_on_a_slope_up_to_their_grip),
+        T(test_it_gets_no_turn_at_once_where_it_cannot_go_back),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -124,6 +124,37 @@ static void test_ground_steeper_than_max_slope_is_not_climbed(void **state)
     assert_true(speed_on(31.5) < 0.01);
 }
 
+/* Puts an agent on a plane that rises to the east, and lets it drive straight for some seconds.
+ * Returns true if it was on its springs. */
+static bool springs_on(double slope_deg, double heading_deg)
+{
+    double slope = slope_deg * RAD_PER_DEG, heading = heading_deg * RAD_PER_DEG;
+    bool springs = false;
+    fixture_close(&f);
+    fixture_open(&f, "");
+    steps_plane(&f, maths_sin(slope) / maths_cos(slope), 0.0);
+    uint32_t row = put_tank(25010.0, 25010.0, heading_deg, 0.0);
+    struct entities e = steps_rows(&f);
+    e.behaviour[row] = e.order[row] = BEHAVIOUR_PATROL;
+    e.goal_x[row] = 25010.0 + 2000.0 * maths_sin(heading);
+    e.goal_z[row] = 25010.0 - 2000.0 * maths_cos(heading);
+    for (int frame = 0; frame < 5 * (int)HZ; frame++) {
+        fixture_run(&f, 1);
+        springs |= (steps_rows(&f).flags[row] & ENTITY_FLAG_CHASSIS) != 0;
+    }
+    assert_true(springs || steps_speed(&f, row) > 0.3);
+    return springs;
+}
+
+/* Beyond 25 degrees the slope itself is no reason, as long as the tyres hold the vehicle. */
+static void test_it_follows_an_even_slope_that_it_does_not_slide_down(void **state)
+{
+    (void)state;
+    for (double heading = 0.0; heading < 360.0; heading += 90.0)
+        assert_false(springs_on(27.0, heading));
+    assert_true(springs_on(35.0, 180.0) && springs_on(35.0, 270.0));
+}
+
 static double cliff(double x, double z, const void *slope)
 {
     (void)z;
@@ -611,6 +642,7 @@ int main(void)
         TEST(test_row_15_it_stays_on_the_ground_in_every_frame),
         TEST(test_slopes_limit_speed),
         TEST(test_ground_steeper_than_max_slope_is_not_climbed),
+        TEST(test_it_follows_an_even_slope_that_it_does_not_slide_down),
         TEST(test_a_vehicle_stops_at_the_foot_of_a_cliff_and_climbs_a_hill),
         TEST(test_deep_water_stops_it),
         TEST(test_water_stops_no_vehicle_within_a_frame),
