@@ -7,8 +7,8 @@
 #include "mover/agent/perception.h"
 #include "mover/agent/progress.h"
 #include "mover/context/cruise_start.h"
+#include "mover/context/steep_ground.h"
 #include "mover/motion/kinematics.h"
-#include "mover/query/ground_marks.h"
 #include "world/entity/hull.h"
 #include "world/param_values.h"
 #include "world/params.h"
@@ -16,8 +16,6 @@
 #include "world/terrain/crater.h"
 #include "world/terrain/fixed_index.h"
 #include "world/terrain/gridsquare.h"
-#include "world/terrain/square_bounds.h"
-#include "world/terrain/terrain_cache.h"
 #include "world/world.h"
 
 #include <stddef.h>
@@ -47,6 +45,15 @@
 #define DEEPER_M       0.2   /* than a step that it climbs, a crater is an obstacle */
 #define BOWL_SHARE     1.15  /* of its radius, within which a crater's ground is too steep */
 #define ROUNDED_MPS    1e-4  /* more than the index's rounding of velocities */
+
+/* Patrols go around ground that is steeper than 25 degrees, by its tangent. Costs are in shares of
+ * the horizon: of such ground, and of each unit of the tangent beyond. So a patrol turns by up to
+ * 55 degrees for it, and by 80 before a slope of 31. If no gentler way is free for this share of
+ * the horizon, it goes over steep ground. */
+#define STEEP        0.4663
+#define STEEP_COST   0.45
+#define STEEPER_COST 2.5
+#define STEEP_FREE   0.5
 
 /* The fan: angles off the desired heading, with their sines and cosines. Direction PRESENT is the
  * present heading. */
@@ -81,6 +88,7 @@ struct look {
     double ahead_s;                /* by which the index may hold others further on their way */
     double x[FAN + 1], z[FAN + 1]; /* the fan's directions, unit */
     double free_m[FAN + 1];        /* how far each is free; at most the horizon */
+    double steep[FAN];             /* what steep ground there costs */
 };
 
 /* --- what follows from the kinds ---------------------------------------------------------------*/
@@ -265,7 +273,7 @@ static void open_fan(struct look *look)
 {
     look->step = 1;
     for (int k = 0; k < FAN; k++)
-        direct(look, k);
+        direct(look, k), look->steep[k] = 0.0;
     look->free_m[PRESENT] = look->horizon_m;
 }
 
@@ -523,19 +531,6 @@ static bool in_world(const struct step_context *context, double x, double z)
     return x > 0.0 && z > 0.0 && x < side_m && z < side_m;
 }
 
-/* Returns true only if the ground up to (x, z) is dry, without craters and no steeper than the
- * vehicle can climb. */
-static bool surely_passable(const struct step_context *context, uint32_t i, double x, double z)
-{
-    const struct entities *m = context->m;
-    struct gridsquare_box box =
-        gridsquare_box_of(&context->world->terrain.squares, maths_min(m->x[i], x),
-                          maths_min(m->z[i], z), maths_max(m->x[i], x), maths_max(m->z[i], z));
-    uint16_t most = square_bounds_below_slope(context->avoidance->slope[m->kind[i]]);
-    return square_bounds_within(context->slopes, box, most) &&
-           !ground_marks_within(context->ground_marks, box, GROUND_MARKS_CRATER);
-}
-
 /* How far earthworks allow it to go in direction k. */
 static double works_free(const struct step_context *context, uint32_t i, const struct look *look,
                          int k)
@@ -554,15 +549,6 @@ static double works_free(const struct step_context *context, uint32_t i, const s
                : look->horizon_m;
 }
 
-/* Returns how steep the ground is at a place near row i, as a tangent. */
-static double steepness(const struct step_context *context, uint32_t i, double x, double z)
-{
-    double east, south;
-    terrain_cache_slopes(&context->world->terrain, &context->terrain_entries[i], x, z, &east,
-                         &south);
-    return sqrt(east * east + south * south);
-}
-
 /* Returns true if a land vehicle cannot get from one height to another within a way, up or down, or
  * would slide off the ground there. Where it stands on ground as steep it may go on. */
 static bool too_steep(const struct step_context *context, uint32_t i, double rise_m, double way_m,
@@ -572,8 +558,8 @@ static bool too_steep(const struct step_context *context, uint32_t i, double ris
     double most = context->avoidance->slope[m->kind[i]];
     if (fabs(rise_m) >= most * way_m)
         return true;
-    double there = steepness(context, i, x, z);
-    return there >= most && there > steepness(context, i, m->x[i], m->z[i]);
+    double there = steep_ground_at(context, i, x, z);
+    return there >= most && there > steep_ground_at(context, i, m->x[i], m->z[i]);
 }
 
 /* How far the ground allows it to go in direction k. Where the ground is not surely passable, two
@@ -586,7 +572,7 @@ static double ground_free(const struct step_context *context, uint32_t i, const 
     double end_x = m->x[i] + look->horizon_m * look->x[k];
     double end_z = m->z[i] + look->horizon_m * look->z[k];
     if (look->kind->domain == DOMAIN_LAND && in_world(context, end_x, end_z) &&
-        surely_passable(context, i, end_x, end_z))
+        steep_ground_is_easy(context, i, end_x, end_z, context->avoidance->slope[m->kind[i]]))
         return look->horizon_m;
     double free_m = works_free(context, i, look, k);
     for (int n = 1; n <= 2; n++) {
@@ -607,11 +593,27 @@ static double ground_free(const struct step_context *context, uint32_t i, const 
     return free_m;
 }
 
+/* Returns what the ground costs a patrol in direction k, in shares of the horizon: on steep ground
+ * it would slide if it turned or braked hard. */
+static double steep_cost(const struct step_context *context, uint32_t i, const struct look *look,
+                         int k)
+{
+    const struct entities *m = context->m;
+    const double dx = look->horizon_m * look->x[k], dz = look->horizon_m * look->z[k];
+    if (look->kind->domain != DOMAIN_LAND || m->behaviour[i] != BEHAVIOUR_PATROL ||
+        !in_world(context, m->x[i] + dx, m->z[i] + dz) ||
+        steep_ground_is_easy(context, i, m->x[i] + dx, m->z[i] + dz, STEEP))
+        return 0.0;
+    double most = steep_ground_on_way(context, i, dx, dz);
+    return most < STEEP ? 0.0 : STEEP_COST + STEEPER_COST * (most - STEEP);
+}
+
 /* --- the choice --------------------------------------------------------------------------------*/
 
 /* The way to a direction on the other side may lead through what it is to go around, so that
- * turning far costs more the faster it is. */
-static int best(const struct look *look, double dodge_rad)
+ * turning far costs more the faster it is. A way back leads around no steep ground, and costs as
+ * much as that ahead. heeds_steep: 1; 0: it goes over steep ground. */
+static int best(const struct look *look, double dodge_rad, double heeds_steep)
 {
     int found = 0;
     double most = -INFINITY;
@@ -620,7 +622,8 @@ static int best(const struct look *look, double dodge_rad)
         double cosine = look->x[k] * look->x[PRESENT] + look->z[k] * look->z[PRESENT];
         double score = look->free_m[k] / look->horizon_m - TURN_COST * fabs(fan_rad[k]) -
                        CHANGE_COST * fabs(fan_rad[k] - dodge_rad) - sweep * (1.0 - cosine) -
-                       (fan_rad[k] < 0.0 ? LEFT_COST : 0.0);
+                       (fan_rad[k] < 0.0 ? LEFT_COST : 0.0) -
+                       heeds_steep * look->steep[fan_cosine[k] < 0.0 ? 0 : k];
         if (score > most) {
             most = score;
             found = k;
@@ -679,21 +682,34 @@ static void see(const struct step_context *context, uint32_t i, struct look *loo
         see_fixed(context, i, look);
 }
 
-/* Chooses a direction when the desired one is not free. */
-static int choose(const struct step_context *context, uint32_t i, struct look *look, bool low)
+/* Looks at the ground in the direction that is best until no other one is better. */
+static int choose_ground(const struct step_context *context, uint32_t i, struct look *look,
+                         double heeds_steep)
 {
     double dodge = (double)context->m->dodge[i];
-    open_fan(look);
-    see(context, i, look, low);
-    int direction = best(look, dodge);
+    int direction = best(look, dodge, heeds_steep);
     for (int tries = 0; tries < FAN && look->kind->domain != DOMAIN_AIR; tries++) {
         double free_m = ground_free(context, i, look, direction);
-        if (free_m >= look->free_m[direction])
+        bool leads_on = free_m >= STEEP_FREE * look->horizon_m;
+        double steep = leads_on ? steep_cost(context, i, look, direction) : 0.0;
+        if (free_m >= look->free_m[direction] && steep <= look->steep[direction])
             break;
-        look->free_m[direction] = free_m;
-        direction = best(look, dodge);
+        look->free_m[direction] = maths_min(free_m, look->free_m[direction]);
+        look->steep[direction] = steep;
+        direction = best(look, dodge, heeds_steep);
     }
     return direction;
+}
+
+/* Chooses a direction when the desired one is not free, or steep. */
+static int choose(const struct step_context *context, uint32_t i, struct look *look, bool low)
+{
+    open_fan(look);
+    see(context, i, look, low);
+    int direction = choose_ground(context, i, look, 1.0);
+    return look->free_m[direction] < STEEP_FREE * look->horizon_m
+               ? choose_ground(context, i, look, 0.0)
+               : direction;
 }
 
 /* Looks along the desired direction first: when it is free no other is better. */
@@ -710,7 +726,8 @@ static void look_ahead(const struct step_context *context, uint32_t i,
     int direction = keeps ? PRESENT : 0;
     see(context, i, &look, low);
     if (direction == 0 && (look.free_m[0] < look.horizon_m ||
-                           (!flies && ground_free(context, i, &look, 0) < look.horizon_m)))
+                           (!flies && (ground_free(context, i, &look, 0) < look.horizon_m ||
+                                       steep_cost(context, i, &look, 0) > 0.0))))
         direction = choose(context, i, &look, low);
     if (desired->shunts)
         look.free_m[PRESENT] =

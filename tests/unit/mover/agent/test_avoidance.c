@@ -421,6 +421,46 @@ static void test_nobody_drives_down_a_mountain_side(void **state)
     }
 }
 
+#define HILL_SLOPE  0.55  /* a tangent: 29 degrees, which a tank climbs */
+#define RIDGE_SLOPE 0.5   /* 27 degrees */
+#define HILL_M      200.0 /* from its foot to its top */
+#define FOOT_M      100.0 /* on which it becomes as steep */
+
+/* Returns how high a hill with this slope is there, so far from its foot. */
+static double hill_of(double slope, double in_m)
+{
+    double foot_m = maths_clamp(in_m, 0.0, FOOT_M);
+    return slope * (0.5 * foot_m * foot_m / FOOT_M + maths_max(0.0, in_m - FOOT_M));
+}
+
+/* A round hill at 25400, 25010, and a kilometre further a ridge across the map. */
+static double hill_and_ridge(double x, double z, const void *context)
+{
+    double away_m = sqrt((x - 25400.0) * (x - 25400.0) + (z - 25010.0) * (z - 25010.0));
+    (void)context;
+    return 100.0 + hill_of(HILL_SLOPE, HILL_M - away_m) +
+           hill_of(RIDGE_SLOPE, HILL_M - fabs(x - 26400.0));
+}
+
+static void test_a_patrol_goes_around_a_steep_hill_and_over_a_steep_ridge(void **state)
+{
+    double highest_m = 0.0;
+    (void)state;
+    steps_ground(&f, hill_and_ridge, NULL);
+    fixture_threads(&f, 1);
+    uint32_t row = send("tank", 25000.0, 25000.0, 27000.0, 25000.0);
+    for (int frame = 0; frame < 300 * HZ && steps_rows(&f).x[row] < 26800.0; frame++) {
+        fixture_run(&f, 1);
+        struct entities e = steps_rows(&f);
+        if (e.x[row] < 25800.0)
+            highest_m = maths_max(highest_m, e.y[row] - 100.0);
+    }
+    print_message("it was %.1f m high on a hill of %.0f m\n", highest_m,
+                  hill_of(HILL_SLOPE, HILL_M));
+    assert_true(highest_m < 0.5 * hill_of(HILL_SLOPE, HILL_M));
+    assert_true(steps_rows(&f).x[row] > 26800.0);
+}
+
 /* Two ridges across the way to the east, as steep as 60 degrees. */
 static double ridges(double x, double z, const void *context)
 {
@@ -537,6 +577,7 @@ int main(void)
         TEST(test_nobody_rams_a_row_of_parked_friends),
         TEST(test_who_must_give_way_does_not_turn_into_a_parked_friend),
         TEST(test_nobody_drives_down_a_mountain_side),
+        TEST(test_a_patrol_goes_around_a_steep_hill_and_over_a_steep_ridge),
         TEST(test_aircraft_slow_down_for_ridges_that_they_have_to_climb),
         TEST(test_a_helicopter_slows_down_before_it_turns_over_a_slope),
         TEST(test_a_driver_is_left_alone),
