@@ -621,33 +621,45 @@ static bool slides(const struct step_context *context, const struct ground_vehic
         ground_grip_at(context, batch->pose.x.lane[l], batch->pose.z.lane[l]).friction, &slope);
 }
 
+/* Finds the lanes that lean so much that their tyres do not hold them. */
+static inline void find_slides(const struct step_context *context, struct ground_vehicle *batch,
+                               const union simd_lanes *forward)
+{
+    const f64x4 tilt = SIMD_EVERY(CHASSIS_TILT_RAD);
+    union lane_masks leans;
+    four_masks any = {0};
+    for (int h = 0; h < LANE_FOURS; h++) {
+        leans.f64x4[h] = (SIMD_ABS(batch->pose.pitch.f64x4[h]) > tilt) |
+                         (SIMD_ABS(batch->pose.roll.f64x4[h]) > tilt);
+        any |= leans.f64x4[h];
+    }
+    memset(&batch->slides, 0, sizeof batch->slides);
+    for (int l = 0; SIMD_ANY(any) && l < batch->count; l++) {
+        if (leans.lane[l] && !batch->rough.lane[l])
+            batch->slides.lane[l] = -(int64_t)slides(context, batch, l, forward->lane[l]);
+        batch->rough.lane[l] |= batch->slides.lane[l];
+    }
+}
+
 /* Finds the lanes whose ground is too rough for a body that follows it: it slides, crosses the edge
  * of a crater, runs into water, leaves the ground over a crest, or gets into that of a hollow. */
 static inline void find_rough(const struct step_context *context, struct ground_vehicle *batch,
                               const union simd_lanes *forward)
 {
     const double dt_s = ground_vehicle_time_s(context, batch);
-    const f64x4 tilt = SIMD_EVERY(CHASSIS_TILT_RAD), step = SIMD_EVERY(CHASSIS_STEP_M);
-    const f64x4 fall = SIMD_EVERY(GRAVITY_MPS2 * dt_s), lift = SIMD_EVERY(CHASSIS_LIFT_M);
-    union lane_masks leans;
-    four_masks any = {0};
+    const f64x4 step = SIMD_EVERY(CHASSIS_STEP_M), lift = SIMD_EVERY(CHASSIS_LIFT_M);
+    const f64x4 fall = SIMD_EVERY(GRAVITY_MPS2 * dt_s);
     memset(&batch->walled, 0, sizeof batch->walled);
     for (int h = 0; h < LANE_FOURS; h++) {
-        f64x4 pitch = batch->pose.pitch.f64x4[h], roll = batch->pose.roll.f64x4[h];
-        f64x4 drop = forward->f64x4[h] * (batch->pitch.f64x4[h] - pitch);
+        f64x4 drop = forward->f64x4[h] * (batch->pitch.f64x4[h] - batch->pose.pitch.f64x4[h]);
         batch->rough.f64x4[h] = batch->wades.f64x4[h] | (batch->pose.step.f64x4[h] > step) |
                                 (batch->pose.lift.f64x4[h] > lift) | (drop > fall);
-        leans.f64x4[h] = (SIMD_ABS(pitch) > tilt) | (SIMD_ABS(roll) > tilt);
-        any |= leans.f64x4[h];
     }
-    for (int l = 0; SIMD_ANY(any) && l < batch->count; l++) {
-        if (leans.lane[l])
-            batch->rough.lane[l] |= -(int64_t)slides(context, batch, l, forward->lane[l]);
+    if (batch->frames == 1) {
+        find_hollows(context, batch);
+        find_jolts(context, batch);
     }
-    if (batch->frames > 1)
-        return;
-    find_hollows(context, batch);
-    find_jolts(context, batch);
+    find_slides(context, batch, forward);
 }
 
 /* A row that comes back from its springs to ground that is too rough for it stays on them. It goes
@@ -661,8 +673,9 @@ static void keep_sprung(const struct step_context *context, struct ground_vehicl
     }
 }
 
-/* Makes a row on rough ground a body on its springs, which goes on as before: an edge under it has
- * lifted it by geometry, which must not become a speed. It does not get into a wall. */
+/* Makes a row on rough ground a body on its springs. One that slides stands on the ground, and goes
+ * on along it. Others go on as before: an edge under them has lifted them by geometry, which must
+ * not become a speed. They do not get into a wall. */
 static void leave_rails(const struct step_context *context, const struct ground_vehicle *batch,
                         int l, double turned_rad)
 {
@@ -670,15 +683,19 @@ static void leave_rails(const struct step_context *context, const struct ground_
     struct entities *m = context->m;
     if (!batch->rough.lane[l])
         return;
-    double pitch = batch->pitch.lane[l], climb = climb_of(batch, l, m->heading[i], pitch);
     chassis_disturb(context, i);
+    m->spin_y[i] = -maths_wrap_half(turned_rad) / context->dt_s;
+    if (batch->slides.lane[l]) {
+        m->vy[i] = climb_of(batch, l, m->heading[i], m->pitch[i]);
+        return;
+    }
+    double pitch = batch->pitch.lane[l], climb = climb_of(batch, l, m->heading[i], pitch);
     m->vy[i] = climb;
     m->y[i] = batch->y.lane[l] + climb * context->dt_s;
     m->pitch[i] = pitch;
     m->roll[i] = context->committed->entities.roll[i];
     if (batch->walled.lane[l])
         m->y[i] = batch->y.lane[l];
-    m->spin_y[i] = -maths_wrap_half(turned_rad) / context->dt_s;
 }
 
 /* --- rows --------------------------------------------------------------------------------------*/

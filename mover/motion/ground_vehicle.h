@@ -28,6 +28,7 @@ struct ground_vehicle {
     union simd_lanes burns;  /* frames whose fuel it burns (kinematics_burn_frames()) */
     union simd_lanes debris; /* the share of full speed that debris at its place allows */
     union lane_masks rough;  /* result: it leaves the ground that it follows */
+    union lane_masks slides; /* rough, because its tyres do not hold it on a slope */
     union lane_masks walled; /* rough, and its place would be in the ground: it keeps the old one */
     union lane_masks wades;  /* it comes to water too fast for its brakes */
     union lane_masks blocked;   /* result: water, a slope or the edge of the world blocks it */

@@ -327,8 +327,7 @@ static bool drive_one(const struct step_context *context, uint32_t i,
     const struct chassis_slope slope = {m->pitch[i], m->roll[i], gain_mps2,
                                         forward * maths_wrap_half(m->heading[i] - heading) /
                                             context->dt_s};
-    if (!chassis_holds(kind, ground_grip_at(context, x, z).friction, &slope) ||
-        forward * (pitch - m->pitch[i]) > GRAVITY_MPS2 * context->dt_s ||
+    if (forward * (pitch - m->pitch[i]) > GRAVITY_MPS2 * context->dt_s ||
         crater_step(context, i) > CHASSIS_STEP_M ||
         y - kinematics_ground(context, x, z) > CHASSIS_LIFT_M || wades || enters != 0 ||
         jolts(context, i, &was)) {
@@ -343,6 +342,10 @@ static bool drive_one(const struct step_context *context, uint32_t i,
             m->x[i] = was.x, m->y[i] = was.y, m->z[i] = was.z;
             m->heading[i] = was.heading;
         }
+    } else if (!chassis_holds(kind, ground_grip_at(context, x, z).friction, &slope)) {
+        chassis_disturb(context, i);
+        m->vy[i] = climb_of(m, i, m->pitch[i]);
+        m->spin_y[i] = -maths_wrap_half(m->heading[i] - heading) / context->dt_s;
     }
     return blocked;
 }
