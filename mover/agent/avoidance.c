@@ -8,6 +8,7 @@
 #include "mover/agent/progress.h"
 #include "mover/context/cruise_start.h"
 #include "mover/context/steep_ground.h"
+#include "mover/motion/drivetrain.h"
 #include "mover/motion/kinematics.h"
 #include "world/entity/hull.h"
 #include "world/param_values.h"
@@ -36,6 +37,7 @@
 #define CHANGE_COST    0.10  /* of each radian off the last dodge, against wavering */
 #define SWEEP_COST     0.10  /* of a turn of 90 degrees off the present heading, at full speed */
 #define LEFT_COST      0.03  /* of turning left, so that two vehicles that meet both turn right */
+#define HOLDS          0.9   /* share of the slope on which its tyres just hold it to the side */
 #define SHARP_SHARE    0.25  /* share of its speed in turns of 90 degrees and more */
 #define ROLLS_MPS      2.0   /* a faster vehicle does not turn in place */
 #define CREEP_M        0.5   /* it goes on so far while it turns past an obstacle beside it */
@@ -157,11 +159,15 @@ static double around_of(double horizon_m)
     return maths_min(FARTHEST_M, 2.0 * horizon_m);
 }
 
+/* The tangent of the slope that is too steep: the kind does not climb it, or would slide or lean
+ * over across it. */
 static double slope_of(const struct kind *kind)
 {
+    const double friction = ground_grip_of(COVER_GRASS).friction;
     double sine, cosine;
     maths_sincos(kind->max_slope_rad, &sine, &cosine);
-    return sine / maths_max(cosine, 1e-9);
+    return maths_min(sine / maths_max(cosine, 1e-9),
+                     HOLDS * drivetrain_lateral(kind, friction) / GRAVITY_MPS2);
 }
 
 int avoidance_init(struct avoidance *avoidance, const struct world *world)
@@ -562,8 +568,14 @@ static bool too_steep(const struct step_context *context, uint32_t i, double ris
     return there >= most && there > steep_ground_at(context, i, m->x[i], m->z[i]);
 }
 
-/* How far the ground allows it to go in direction k. Where the ground is not surely passable, two
- * points of it are tested. */
+/* Where the ground is tested, in shares of the horizon. What is in the water looks at the last two.
+ */
+static const double tested[] = {0.0625, 0.125, 0.25, 0.5, 1.0};
+#define TESTED     ((int)(sizeof tested / sizeof tested[0]))
+#define TESTED_WET 2
+
+/* How far the ground allows it to go in direction k. Where it is not surely passable, some points
+ * of it are tested. */
 static double ground_free(const struct step_context *context, uint32_t i, const struct look *look,
                           int k)
 {
@@ -575,8 +587,9 @@ static double ground_free(const struct step_context *context, uint32_t i, const 
         steep_ground_is_easy(context, i, end_x, end_z, context->avoidance->slope[m->kind[i]]))
         return look->horizon_m;
     double free_m = works_free(context, i, look, k);
-    for (int n = 1; n <= 2; n++) {
-        double distance = 0.5 * n * look->horizon_m;
+    bool wet = cover_is_water(terrain_cover(&context->world->terrain, m->x[i], m->z[i]));
+    for (int n = wet ? TESTED - TESTED_WET : 0; n < TESTED; n++) {
+        double distance = tested[n] * look->horizon_m;
         double x = m->x[i] + distance * look->x[k], z = m->z[i] + distance * look->z[k];
         if (!in_world(context, x, z) ||
             cover_is_water(terrain_cover(&context->world->terrain, x, z)) !=

@@ -461,6 +461,36 @@ static void test_a_patrol_goes_around_a_steep_hill_and_over_a_steep_ridge(void *
     assert_true(steps_rows(&f).x[row] > 26800.0);
 }
 
+/* Trucks and two others drive up a valley in the White Mountains to a bank of 36 degrees, 10 m
+ * wide. They looked at the ground half of their horizon away, which is 44 m; when all of that was
+ * too steep, they crept on, onto the bank, and turned over. */
+static void test_a_patrol_turns_aside_before_a_bank(void **state)
+{
+    static const char *const kinds[] = {"truck", "hamburger", "attack-tomato"};
+    static char text[512];
+    (void)state;
+    snprintf(text, sizeof text,
+             "world = { seed = 1; capacity = 64; hz = 20.0; };"
+             "terrain = { source = \"file\"; file = \"%s/grounds/white-mountains.ground\"; };",
+             fixture_shipped_dir());
+    for (size_t n = 0; n < sizeof kinds / sizeof kinds[0]; n++) {
+        fixture_close(&f);
+        fixture_open(&f, text);
+        uint32_t row = send(kinds[n], 22695.0, 24402.0, 21710.0, 24228.0);
+        struct entities e = steps_rows(&f);
+        double most = 0.0;
+        e.y[row] = steps_ground_at(&f, e.x[row], e.z[row]);
+        for (int frame = 0; frame < 60 * HZ; frame++) {
+            fixture_run(&f, 1);
+            e = steps_rows(&f);
+            most = maths_max(most, maths_max(fabs(e.pitch[row]), fabs(e.roll[row])));
+        }
+        print_message("%s leans by up to %.0f degrees\n", kinds[n], most * DEG_PER_RAD);
+        assert_int_equal(e.state[row], ENTITY_ACTIVE);
+        assert_true(most < 33.0 * RAD_PER_DEG);
+    }
+}
+
 /* Two ridges across the way to the east, as steep as 60 degrees. */
 static double ridges(double x, double z, const void *context)
 {
@@ -578,6 +608,7 @@ int main(void)
         TEST(test_who_must_give_way_does_not_turn_into_a_parked_friend),
         TEST(test_nobody_drives_down_a_mountain_side),
         TEST(test_a_patrol_goes_around_a_steep_hill_and_over_a_steep_ridge),
+        TEST(test_a_patrol_turns_aside_before_a_bank),
         TEST(test_aircraft_slow_down_for_ridges_that_they_have_to_climb),
         TEST(test_a_helicopter_slows_down_before_it_turns_over_a_slope),
         TEST(test_a_driver_is_left_alone),
