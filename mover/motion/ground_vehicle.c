@@ -25,6 +25,7 @@
 #define LEAST_MPS     0.5  /* below it the drive force grows no more */
 #define PIVOT_RPS     1e3  /* tracks turn a vehicle on the spot: more than any turn rate */
 #define LEAST_TURN_M  0.1  /* no circle is tighter */
+#define MISSES_RAD    0.05 /* of its turn in the tightest circle, a stretch at changing speed */
 #define NEAR_M        1.0  /* between a body and works or craters that cannot be under it */
 #define LEAST_GAIN    0.1  /* [m/s2] a vehicle that can climb gains speed at least so fast */
 #define HALF_WAYS     3    /* so often the speed half way of a stretch is found again */
@@ -177,7 +178,9 @@ static inline void steer(struct ground_vehicle *batch, int h, const f64x4 *forwa
     rate = SIMD_MIN(rate, holds);
     f64x4 off = batch->wanted_heading.f64x4[h] - batch->heading.f64x4[h];
     kinematics_simd_wrap_half(&off);
-    batch->tight.f64x4[h] = (circle < rate) & (SIMD_ABS(off) > circle * dt_s);
+    f64x4 misses = SIMD_ABS(later - speed) * batch->curve.f64x4[h] * dt_s;
+    batch->tight.f64x4[h] =
+        (circle < rate) & (SIMD_ABS(off) > circle * dt_s) & (misses > SIMD_EVERY(MISSES_RAD));
     rate = SIMD_MIN(rate, circle);
     struct kinematics_simd_helm helm = {batch->wanted_heading.f64x4[h], none, {0}};
     kinematics_simd_steer(&batch->heading.f64x4[h], &helm, &rate, dt_s);

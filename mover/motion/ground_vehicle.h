@@ -32,7 +32,7 @@ struct ground_vehicle {
     union lane_masks walled; /* rough, and its place would be in the ground: it keeps the old one */
     union lane_masks wades;  /* it comes to water too fast for its brakes */
     union lane_masks blocked;   /* result: water, a slope or the edge of the world blocks it */
-    union lane_masks tight;     /* it turns in its tightest circle, and not as far as it wants */
+    union lane_masks tight;     /* it turns in its tightest circle, and less than by its speeds */
     union lane_masks reaches;   /* it has the speed that it wants */
     union simd_lanes turned;    /* by which a stretch turns */
     union simd_lanes gain_mps2; /* and gains speed along its heading */
