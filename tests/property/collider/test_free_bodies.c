@@ -360,7 +360,7 @@ static void test_a_pushed_wreck_goes_no_farther_than_its_velocity(void **state)
             struct vec3 was = entities_position(&e, row), before = entities_velocity(&e, row);
             uint32_t told = fixture_event_count(&f, EVENT_COLLISION);
             e.vz[tank] = -3.0;
-            fixture_continue(&f, 1);
+            fixture_run(&f, 1);
             e = steps_rows(&f);
             struct vec3 after = entities_velocity(&e, row);
             double speed = maths_max(vec3_length(before), vec3_length(after));

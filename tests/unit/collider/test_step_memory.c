@@ -1,5 +1,5 @@
 /* The steps of mover and collider take no memory and ask the kernel for nothing but to wake and to
- * wait for their threads (futex), however heavy the frame is. Each world runs in a process of its
+ * wait for their threads (futex, sched_yield), however heavy the frame is. Each world runs in a process of its
  * own, under a filter that lets nothing else through; malloc() and its like end it too. */
 #include "tests/support/child.h"
 #include "tests/support/steps.h"
@@ -86,11 +86,12 @@ static void on_forbidden(int signal_number, siginfo_t *info, void *context)
     BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, number, 0, 1), BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ALLOW)
 
 /* For all threads of the process. */
-static int forbid_all_but_futex(void)
+static int forbid_all_but_waiting(void)
 {
     struct sock_filter rules[] = {
         BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(struct seccomp_data, nr)),
         ALLOW(SYS_futex),
+        ALLOW(SYS_sched_yield),
         ALLOW(SYS_exit_group),
         /* A thread that was made before, and begins only now. */
         ALLOW(SYS_set_robust_list),
@@ -129,7 +130,7 @@ static int run_steps(void *context)
                                     .entity = 1 + i % 20,
                                     .value = {1.0, (double)(i % 7) / 7.0 - 0.5, 0.0}});
     fixture_forget_copies(&f);
-    if (forbid_all_but_futex() != 0)
+    if (forbid_all_but_waiting() != 0)
         return NO_FILTER;
     stepping = true;
     for (uint32_t i = 0; i < trial->frames; i++)
@@ -268,7 +269,7 @@ static int allocate(void *context)
 static int ask(void *context)
 {
     (void)context;
-    if (forbid_all_but_futex() != 0)
+    if (forbid_all_but_waiting() != 0)
         return NO_FILTER;
     return getppid() == 0;
 }

@@ -151,8 +151,9 @@ static void test_no_shell_turns_into_a_wall(void **state)
     assert_true(deepest < 0.02);
 }
 
-/* Agents come to a crater's rim. What lifts their corners must not throw them up within a frame:
- * they take to their springs at once. They were lifted by 2 cm, with 1.1 m/s. */
+/* Agents come to the rim of a crater that is too near to go around. What lifts their corners must
+ * not throw them up within a frame: they take to their springs at once. They were lifted by 2 cm,
+ * with 1.1 m/s. */
 static void test_no_rim_lifts_it_with_a_jerk(void **state)
 {
     static const char *const kinds[] = {"tank", "carrier", "jeep", "truck"};
@@ -164,7 +165,7 @@ static void test_no_rim_lifts_it_with_a_jerk(void **state)
         struct state now = fixture_state(&f);
         for (int buffer = 0; buffer < 2; buffer++)
             f.view.w[buffer].head->crater_count = (uint32_t)n + 1;
-        now.craters[n] = (struct crater){x + 1.5, 24980.0, 2.5f, 0.8f, 1};
+        now.craters[n] = (struct crater){x + 1.5, 24991.0, 2.5f, 0.8f, 1};
         steps_rows(&f).behaviour[row] = BEHAVIOUR_PATROL;
         steps_rows(&f).goal_x[row] = x;
         steps_rows(&f).goal_z[row] = 24800.0;

@@ -104,7 +104,10 @@ static double heads_at(struct vec3 at, struct vec3 velocity, double turns_rps, u
 {
     uint32_t tank =
         fixture_put(&f, (struct fixture_entity){.kind = "tank", .at = at, .velocity = velocity});
+    fixture_run(&f, 1); /* a body that is new goes by frames if spheres may be in each other */
     struct entities e = steps_rows(&f);
+    entities_set_position(&e, tank, at);
+    entities_set_velocity(&e, tank, velocity);
     e.cruise_tick[tank] = frames > 0 ? (uint32_t)fixture_state(&f).head->tick + frames : 0;
     e.cruise_rps[tank] = turns_rps;
     e.heading[tank] = maths_heading(velocity.x, velocity.z);
