@@ -1,6 +1,7 @@
 /* The steps of mover and collider take no memory and ask the kernel for nothing but to wake and to
- * wait for their threads (futex, sched_yield), however heavy the frame is. Each world runs in a process of its
- * own, under a filter that lets nothing else through; malloc() and its like end it too. */
+ * wait for their threads (futex, sched_yield), however heavy the frame is. Each world runs in a
+ * process of its own, under a filter that lets nothing else through; malloc() and its like end it
+ * too. */
 #include "tests/support/child.h"
 #include "tests/support/steps.h"
 
