@@ -20,7 +20,6 @@ enum motion {
     MOTION_CRUISE, /* on a stretch: nothing writes to its row */
 };
 
-
 /* A block of rows before it moves. */
 struct row_block {
     uint32_t first, end; /* rows; at most CHECKSUM_ROWS */
