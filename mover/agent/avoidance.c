@@ -783,7 +783,7 @@ void avoidance_steer(const struct step_context *context, uint32_t i, struct desi
             desired->heading_rad = m->heading[i]; /* it stops before it turns in place */
         return;
     }
-    if (perception_decides(context, i) || cruise_start_due(context, i, context->think_frames))
+    if (perception_looks_out(context, i))
         look_ahead(context, i, desired);
     desired->heading_rad = maths_wrap_turn(desired->heading_rad + (double)m->dodge[i]);
     desired->speed_mps *= 1.0 - (double)m->ease[i];

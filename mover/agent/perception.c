@@ -60,6 +60,11 @@ bool perception_decides(const struct step_context *context, uint32_t i)
     return step_context_thinks(context, i);
 }
 
+bool perception_looks_out(const struct step_context *context, uint32_t i)
+{
+    return perception_decides(context, i) || cruise_start_due(context, i, context->think_frames);
+}
+
 static bool looks_now(const struct step_context *context, uint32_t i)
 {
     return ((uint32_t)context->tick + context->m->id[i]) % context->look_frames == 0 ||

@@ -26,6 +26,10 @@ uint32_t perception_look_frames(const struct params *params, uint32_t used);
  * times at any rate of frames. */
 bool perception_decides(const struct step_context *context, uint32_t i);
 
+/* Returns true if row i decides where to drive: in its turn, or because a stretch begins in which
+ * its turn falls. */
+bool perception_looks_out(const struct step_context *context, uint32_t i);
+
 /* Returns true if an event has happened to row i, so that it decides in this frame even if it is
  * not due. */
 bool perception_event(const struct step_context *context, uint32_t i);

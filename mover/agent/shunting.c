@@ -83,7 +83,7 @@ bool shunting_face(const struct step_context *context, uint32_t i, double headin
         return faces;
     double stroke = stroke_mps(&context->world->kinds[m->kind[i]]);
     bool back = goes_back(context, i);
-    if (perception_decides(context, i) && is_over(context, i, stroke))
+    if (perception_looks_out(context, i) && is_over(context, i, stroke))
         back = !back;
     m->dodge[i] = 0.0f;
     desired->speed_mps = back ? -stroke : stroke;
@@ -143,7 +143,7 @@ void shunting_steer(const struct step_context *context, uint32_t i, struct desir
         return;
     double stroke = stroke_mps(&context->world->kinds[context->m->kind[i]]);
     bool back = goes_back(context, i);
-    if (perception_decides(context, i)) {
+    if (perception_looks_out(context, i)) {
         double left = turn_left(context, i, desired);
         if (back)
             back = !is_over(context, i, stroke) &&

@@ -4,7 +4,7 @@
 . "$(dirname "$0")/lib.sh"
 
 cat >meeting.cfg <<'SCENARIO'
-world = { seed = 5; };
+world = { seed = 3; };
 terrain = { source = "flat"; };
 vehicles = (
   { kind = "tank"; count = 10; force = "blue"; fire_at_will = true; area = [24000.0, 26500.0, 25000.0, 26900.0];

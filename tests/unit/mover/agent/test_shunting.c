@@ -11,6 +11,7 @@
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
+#include <string.h>
 
 #include <cmocka.h>
 
@@ -211,6 +212,36 @@ static void test_no_patrol_turns_tighter(void **state)
     }
 }
 
+/* A goal near behind is reached backwards, and then the vehicle goes forwards again, also when it
+ * decides only as its stretches begin: half of these went on backwards, for a kilometre. */
+static void test_patrols_of_small_areas_stay_there(void **state)
+{
+    char text[1024] = "world = { cruise = true; };\nvehicles = (";
+    size_t length = strlen(text);
+    (void)state;
+    for (int n = 0; n < 6; n++) {
+        int x = 20000 + 500 * n;
+        length += (size_t)snprintf(text + length, sizeof text - length,
+                                   "%s{ kind = \"%s\"; area = [%d.0, 20000.0, %d.0, 20060.0]; "
+                                   "behaviour = \"patrol\"; }",
+                                   n > 0 ? "," : "", n % 2 ? "jeep" : "truck", x, x + 60);
+    }
+    snprintf(text + length, sizeof text - length, ");");
+    fixture_open(&f, text);
+    fixture_run(&f, 1);
+    for (int second = 0; second < 300; second++) {
+        fixture_continue(&f, HZ);
+        for (uint32_t i = 0; i < 6; i++) {
+            const struct vec3 at = steps_position(&f, i);
+            const double off_x = at.x - (20030.0 + 500.0 * i), off_z = at.z - 20030.0;
+            if (fabs(off_x) > 70.0 || fabs(off_z) > 70.0)
+                fail_msg("row %u is %.0f, %.0f m off its area's middle after %d s", i, off_x, off_z,
+                         second);
+        }
+    }
+    fixture_close(&f);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -219,6 +250,7 @@ int main(void)
         cmocka_unit_test(test_wheels_get_to_a_point_beside_them),
         cmocka_unit_test(test_wheels_turn_before_a_wall),
         cmocka_unit_test(test_no_patrol_turns_tighter),
+        cmocka_unit_test(test_patrols_of_small_areas_stay_there),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
