@@ -130,11 +130,12 @@ static void hash_blocks(void *context, uint32_t first, uint32_t end, uint32_t wo
     struct row_list rows;
     (void)worker;
     for (uint32_t block = first; block < end; block++) {
-        uint64_t columns = job->written ? job->written->columns[block] : COLUMNS_ALL;
+        const struct written *written = job->written;
+        uint64_t columns = written ? written->columns[block] : COLUMNS_ALL;
         if (columns == 0)
             continue;
-        if (block < job->known &&
-            row_list_gather(&rows, block, job->used, &job->written->rows[block * ROW_BLOCK_WORDS]))
+        if (written && block < job->known &&
+            row_list_gather(&rows, block, job->used, &written->rows[block * ROW_BLOCK_WORDS]))
             table_hash_rows(job->table, job->before, block, columns, &rows);
         else
             table_hash_block(job->table, block, job->used, columns);

@@ -139,14 +139,14 @@ static bool meet(const struct contact_input *input, const struct pair *pair)
 /* Returns true if the pose or the stretch of a row differs, bit by bit. */
 static bool pose_differs(const struct entities *a, const struct entities *b, uint32_t row)
 {
+    uint64_t columns = 0;
 #define X(type, name)                                                                              \
-    if (POSE_COLUMNS & COLUMN_BIT(name) &&                                                         \
-        memcmp((const unsigned char *)&a->name[row], (const unsigned char *)&b->name[row],         \
-               sizeof(type)) != 0)                                                                 \
-        return true;
+    columns |= (POSE_COLUMNS & COLUMN_BIT(name)) *                                                 \
+               (uint64_t)(memcmp((const unsigned char *)&a->name[row],                             \
+                                 (const unsigned char *)&b->name[row], sizeof(type)) != 0);
     ENTITY_COLUMNS(X)
 #undef X
-    return false;
+    return columns != 0;
 }
 
 /* Returns true if a row moves in this frame, begins a stretch, or has a wider box. By the tables
