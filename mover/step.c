@@ -149,8 +149,7 @@ static void pull_triggers(struct serial_context *context, const struct rows *row
     uint32_t used = context->step->committed->head->used;
     for (uint32_t first = 0; first < used; first += CHECKSUM_ROWS) {
         uint32_t block = first / CHECKSUM_ROWS;
-        bool blank = used - first >= CHECKSUM_ROWS &&
-                     rows->moved.hashes[block].column[COLUMN_trigger] == COLUMN_HASH_BLANK;
+        bool blank = rows->moved.hashes[block].column[COLUMN_trigger] == COLUMN_HASH_BLANK;
         if (!blank || rows->changed[block] & COLUMN_BIT(trigger))
             triggers_pull(context, first,
                           used - first < CHECKSUM_ROWS ? used : first + CHECKSUM_ROWS);
