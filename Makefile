@@ -300,7 +300,7 @@ $(BIN)/jolon: supervisor/jolon
 $(call objects,$(addprefix renderer/scene/,terrain/terrain_colour.c terrain/terrain_block.c noise/value_noise_rows.c)): \
         CFLAGS_EXTRA = -O3 -fno-math-errno -fno-trapping-math
 # A hash is the sum of those of words, which vectors add up.
-$(call objects,world/column_hash.c): CFLAGS_EXTRA = -O3
+$(call objects,world/word_hash.c): CFLAGS_EXTRA = -O3
 # A heap's frame copies small structures without end, which gcc does by an instruction that begins
 # slowly if it is not told otherwise (docs/decisions/032-resting-contacts.md).
 UNROLLED = $(if $(and $(findstring gcc,$(CC)),$(filter x86_64-%,$(COMPILER))),-mstringop-strategy=unrolled_loop)

@@ -10,13 +10,16 @@
 #include "world/terrain/ground_clamp.h"
 #include "world/world.h"
 
-static void restore_block(struct response_context *context, const struct entities *moved,
-                          uint32_t first, uint32_t end)
+/* Makes the remote rows that responses wrote what they were. */
+static void restore(struct response_context *context, const struct entities *moved)
 {
-    const struct entities *e = &context->next->entities;
-    for (uint32_t row = first; row < end; row++) {
-        if (remote_is(moved, row) && entities_differing(e, moved, row) != 0)
-            table_copy_row(&context->writer, moved, row);
+    const uint64_t *written = context->writer.written;
+    for (uint32_t w = 0; w * 64 < context->next->head->used; w++) {
+        for (uint64_t left = written[w]; left != 0; left &= left - 1) {
+            uint32_t row = w * 64 + (uint32_t)__builtin_ctzll(left);
+            if (remote_is(moved, row))
+                table_copy_row(&context->writer, moved, row);
+        }
     }
 }
 
@@ -29,14 +32,14 @@ static void correct(struct response_context *context, uint32_t row)
         struct vec3 at = vec3_add(entities_position(e, row), vec3_scale(drift, dt_s));
         at.x = world_clamp(context->world, at.x);
         at.z = world_clamp(context->world, at.z);
-        if (e->order_arg[row] >> REMOTE_FLAGS_SHIFT & REMOTE_FLAG_CLAMPED)
+        if (e->row[row].order_arg >> REMOTE_FLAGS_SHIFT & REMOTE_FLAG_CLAMPED)
             (void)ground_clamp(&context->world->terrain, context->input.detect.craters,
                                REMOTE_CLAMP_M, &at);
         table_set_position(&context->writer, row, at);
     }
     if (vec3_dot(turn, turn) > 0.0) {
         double heading, pitch, roll;
-        struct quat now = rotation_of(e->heading[row], e->pitch[row], e->roll[row]);
+        struct quat now = rotation_of(e->row[row].heading, e->row[row].pitch, e->row[row].roll);
         rotation_angles(rotation_spun(now, turn, dt_s), &heading, &pitch, &roll);
         table_set_heading(&context->writer, row, heading);
         table_set_pitch(&context->writer, row, pitch);
@@ -50,11 +53,7 @@ void remote_rows_settle(struct response_context *context, const struct entities 
     uint32_t used = context->next->head->used, tick = (uint32_t)context->next->head->tick;
     if (context->world->params->remotes_max == 0)
         return;
-    for (uint32_t first = 0; first < used; first += CHECKSUM_ROWS) {
-        if (context->writer.changed[first / CHECKSUM_ROWS] != 0)
-            restore_block(context, moved, first,
-                          used - first < CHECKSUM_ROWS ? used : first + CHECKSUM_ROWS);
-    }
+    restore(context, moved);
     for (uint32_t row = 0; row < used; row++) {
         if (remote_is_corrected(e, row, tick))
             correct(context, row);

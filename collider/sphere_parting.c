@@ -69,8 +69,8 @@ void sphere_parting_free(struct sphere_parting *parting)
 static bool is_body(const struct response_context *context, uint32_t row)
 {
     const struct entities *e = &context->next->entities;
-    return e->state[row] != ENTITY_FREE &&
-           context->world->kinds[e->kind[row]].domain != DOMAIN_MUNITION &&
+    return e->row[row].state != ENTITY_FREE &&
+           context->world->kinds[e->row[row].kind].domain != DOMAIN_MUNITION &&
            path_change_grounded(context, row);
 }
 
@@ -385,8 +385,8 @@ static bool go(struct response_context *context, uint32_t row, const struct sphe
     cruise_rows_stop(&context->input, row);
     at.x = world_clamp(context->world, end.x);
     at.z = world_clamp(context->world, end.z);
-    ground_placement_put(context, row, at, e->heading[row]);
-    if (e->state[row] == ENTITY_WRECK)
+    ground_placement_put(context, row, at, e->row[row].heading);
+    if (e->row[row].state == ENTITY_WRECK)
         table_set_until_tick(&context->writer, row, 0);
     body_motion_compute(context->motion, row);
     contact_queue_look(context->contacts, &context->input, row, false);

@@ -28,7 +28,7 @@
 /* Returns a bit for each row that a world has room for, in whole blocks, or NULL. */
 static uint64_t *rows_bits(const struct world *world)
 {
-    return calloc(block_count(world->params->capacity), ROW_BLOCK_BYTES);
+    return calloc(1, written_bytes(world->params->capacity));
 }
 
 int collider_init(struct collider *collider, const struct world *world,
@@ -40,6 +40,7 @@ int collider_init(struct collider *collider, const struct world *world,
         square_bounds_init(&collider->heights, &world->terrain.squares, square_bounds_height,
                            &world->terrain) != 0 ||
         !(collider->written[0] = rows_bits(world)) || !(collider->written[1] = rows_bits(world)) ||
+        !(collider->sprung = rows_bits(world)) || !(collider->fresh = rows_bits(world)) ||
         body_motion_init(&collider->motion, world) != 0 ||
         broad_phase_init(&collider->broad, world, workers) != 0 ||
         contact_queue_init(&collider->contacts, world, workers) != 0 ||
@@ -66,6 +67,8 @@ void collider_free(struct collider *collider)
     square_bounds_free(&collider->heights);
     free(collider->written[0]);
     free(collider->written[1]);
+    free(collider->sprung);
+    free(collider->fresh);
     body_motion_free(&collider->motion);
     broad_phase_free(&collider->broad);
     contact_queue_free(&collider->contacts);
@@ -95,8 +98,8 @@ void collider_touch(const struct collider *collider, const struct moved *moved,
 struct step {
     struct collider *collider;
     const struct state *committed;
-    struct table moved, next;
-    const uint64_t *written; /* of the moved table */
+    const struct moved *moved;
+    const struct state *next;
     uint32_t used;
     uint32_t known; /* first blocks of next that still hold what this process left */
     uint32_t sees;  /* the same, if this process has made the committed frame, too; else 0 */
@@ -109,69 +112,81 @@ _Static_assert(BROAD_PHASE_ROWS_TAKEN == CHECKSUM_ROWS, "rows are taken by whole
 #define FEW_MOVE       (CHECKSUM_ROWS / 4)
 #define FEW_MOVE_ALONG (CHECKSUM_ROWS / 4 * 3)
 
-_Static_assert(ROW_LIST_MAX <= FEW_MOVE, "rows of a list never are all rows");
-
-/* Lists the rows of a block in which the moved table differs from the committed frame. Returns
- * false if this is not known, or if they are many. */
-static bool list_written(const struct step *step, uint32_t block, struct row_list *list)
+/* Returns the bits of the rows that the mover wrote in this frame, as take_blocks() noted them: all
+ * rows, where that is not known. */
+static uint64_t *written_now(const struct step *step)
 {
-    return block < step->sees &&
-           row_list_gather(list, block, step->used, &step->written[block * ROW_BLOCK_WORDS]);
+    return step->collider->written[(step->committed->head->frame + 1) & 1];
 }
 
 /* Finds the rows of a block whose pose is not that of the committed frame. */
 static void find_moving(const struct step *step, uint32_t block, struct moving_rows *moving)
 {
-    const struct table committed = state_table(step->committed);
-    uint32_t first = block * CHECKSUM_ROWS, old = step->committed->head->used;
-    uint32_t both = old < step->used ? old : step->used;
+    const struct entities *m = &step->moved->entities, *w = &step->committed->entities;
+    const uint64_t *written = written_now(step) + block * ROW_BLOCK_WORDS;
+    uint32_t first = block * CHECKSUM_ROWS, old = step->committed->head->used, count = 0;
     uint32_t few = step->collider->broad.cruises ? FEW_MOVE_ALONG : FEW_MOVE;
-    struct row_list list;
-    *moving = (struct moving_rows){.all = first >= both};
-    if (moving->all)
-        return;
-    if (list_written(step, block, &list))
-        table_differing_rows(step->moved, committed, block, POSE_COLUMNS, &list, moving->row);
-    else
-        moving->all =
-            !table_differing(step->moved, committed, block, both, POSE_COLUMNS, few, moving->row);
-    for (uint32_t row = both; !moving->all && row < step->used && row < first + CHECKSUM_ROWS;
-         row++)
-        moving->row[(row - first) / 64] |= (uint64_t)1 << (row - first) % 64;
+    *moving = (struct moving_rows){.all = first >= old};
+    for (uint32_t n = 0; !moving->all && n < ROW_BLOCK_WORDS; n++) {
+        for (uint64_t left = written[n]; left != 0; left &= left - 1) {
+            uint32_t row = first + n * 64 + (uint32_t)__builtin_ctzll(left);
+            bool moves =
+                row < step->used && (row >= old || pose_differs(&m->row[row], &w->row[row]));
+            moving->row[n] |= moves ? left & -left : 0;
+        }
+        count += (uint32_t)__builtin_popcountll(moving->row[n]);
+    }
+    moving->all |= count > few;
 }
 
-/* Lists the rows of a block in which the next buffer, which holds the frame before the committed
+/* Copies the rows of a block in which the next buffer, which holds the frame before the committed
  * one, may differ from the moved table: those that the mover wrote in this frame and in the last
- * one, and those that this process wrote in the last one. Returns false as above. */
-static bool list_stale(const struct step *step, uint32_t block, struct row_list *list)
+ * one, and those that responses wrote in the last one. */
+static void take_stale(const struct step *step, uint32_t block)
 {
-    const struct collider *collider = step->collider;
-    const uint64_t *before = collider->written[step->committed->head->frame & 1];
-    const uint64_t *responses = collider->broad.resting.written;
+    const uint64_t *before = step->collider->written[step->committed->head->frame & 1];
     uint64_t bits[ROW_BLOCK_WORDS];
     for (uint32_t w = 0; w < ROW_BLOCK_WORDS; w++) {
         uint32_t word = block * ROW_BLOCK_WORDS + w;
-        bits[w] = step->written[word] | before[word] | responses[word];
+        bits[w] = step->moved->written[word] | before[word] | step->committed->written[word];
     }
-    return block < step->sees && row_list_gather(list, block, step->used, bits);
+    table_take_rows(state_table(step->next), moved_table(step->moved), block, bits);
 }
 
-/* Copies blocks of moved rows. Must come before the rows of this frame are noted as written. */
+/* Notes which rows of a block the mover wrote, which of these are on their springs, and which hold
+ * another body than in the committed frame. */
+static void note_written(const struct step *step, uint32_t block, bool known)
+{
+    const struct entity *m = step->moved->entities.row, *before = step->committed->entities.row;
+    const uint32_t first = block * ROW_BLOCK_WORDS, old = step->committed->head->used;
+    uint64_t *written = written_now(step);
+    uint64_t *sprung = step->collider->sprung, *fresh = step->collider->fresh;
+    for (uint32_t w = first; w < first + ROW_BLOCK_WORDS; w++) {
+        uint32_t left_rows = step->used > w * 64 ? step->used - w * 64 : 0;
+        uint64_t there = left_rows >= 64 ? UINT64_MAX : ((uint64_t)1 << left_rows) - 1;
+        written[w] = there & (known ? step->moved->written[w] : UINT64_MAX);
+        sprung[w] = fresh[w] = 0;
+        for (uint64_t left = written[w]; left != 0; left &= left - 1) {
+            uint32_t row = w * 64 + (uint32_t)__builtin_ctzll(left);
+            sprung[w] |= m[row].flags & ENTITY_FLAG_CHASSIS ? left & -left : 0;
+            fresh[w] |= row >= old || m[row].id != before[row].id ? left & -left : 0;
+        }
+    }
+}
+
+/* Copies blocks of moved rows. */
 static void take_blocks(void *context, uint32_t first, uint32_t end, uint32_t worker)
 {
     const struct step *step = context;
-    struct collider *collider = step->collider;
-    uint64_t *written = collider->written[(step->committed->head->frame + 1) & 1];
-    struct row_list list;
     (void)worker;
     for (uint32_t block = first; block < end; block++) {
-        uint32_t word = block * ROW_BLOCK_WORDS;
-        if (list_stale(step, block, &list))
-            table_take_rows(step->next, step->moved, block, &list);
+        bool sees = block < step->sees;
+        if (sees)
+            take_stale(step, block);
         else
-            table_take(step->next, step->moved, block, step->used, block < step->known);
-        memcpy(&written[word], &step->written[word], ROW_BLOCK_BYTES);
-        collider->changed[block] = step->known > 0 ? 0 : COLUMNS_ALL;
+            table_take(state_table(step->next), moved_table(step->moved), block, step->used,
+                       block < step->known);
+        note_written(step, block, sees);
     }
 }
 
@@ -334,7 +349,7 @@ static void collide_all(struct step *step, struct response_context *context)
         turret_guard_run(context);
     if (context->functions->joint)
         debris_push_step(context);
-    remote_rows_settle(context, step->moved.entities);
+    remote_rows_settle(context, &step->moved->entities);
     damage_overturned(context);
     if (collider->broad.cruises)
         cruise_rows_meet_written(&context->input, &collider->pairs);
@@ -372,19 +387,19 @@ static uint64_t fixed_hash(struct collider *collider, const struct state *commit
     return collider->fixed_hash;
 }
 
-/* The checksum of the finished frame; columns that responses changed are hashed again. The hashes
- * of the lists are kept only up to the committed frame, since this frame may be computed again. */
+/* The checksum of the finished frame. The hashes of the lists are kept only up to the committed
+ * frame, since this frame may be computed again. */
 static uint64_t checksum(const struct step *step, const struct state *next)
 {
     struct collider *collider = step->collider;
     const struct state *committed = step->committed;
-    const struct written written = {collider->changed, collider->broad.resting.written};
     uint32_t used = next->head->used;
     list_hashes_extend(&collider->lists, committed);
     struct list_hashes lists = collider->lists;
     list_hashes_extend(&lists, next);
-    table_hash_written(step->next, step->moved, used, step->known > 0 ? block_count(used) : 0,
-                       &written, collider->workers);
+    memcpy(next->written, collider->broad.resting.written,
+           written_bytes(collider->world->params->capacity));
+    table_hash_written(state_table(next), &step->moved->entities, used, next->written);
     return state_checksum_of(next, rows_hash(next->hashes, used),
                              fixed_hash(collider, committed, next), &lists);
 }
@@ -394,8 +409,7 @@ struct response_context collider_response_context(struct collider *collider, str
     const struct world *world = collider->world;
     const struct response_functions *functions =
         response_of((enum response_model)world->params->collision.response);
-    const struct table_writer writer = {&next->entities, collider->changed, NULL,
-                                        collider->broad.resting.written};
+    const struct table_writer writer = {&next->entities, NULL, collider->broad.resting.written};
     return (struct response_context){
         .world = world,
         .functions = functions,
@@ -418,7 +432,9 @@ struct response_context collider_response_context(struct collider *collider, str
         .path = collider->motion.path,
         .charges = &collider->charges,
         .island = &collider->island,
-        .unsprung = collider->unsprung,
+        .moved = collider->written[next->head->frame & 1],
+        .sprung = collider->sprung,
+        .fresh = collider->fresh,
         .writer = writer,
     };
 }
@@ -429,9 +445,8 @@ void collider_step(struct collider *collider, const struct state *committed,
     const struct world *world = collider->world;
     struct step step = {.collider = collider,
                         .committed = committed,
-                        .moved = moved_table(moved),
-                        .next = state_table(next),
-                        .written = moved->written,
+                        .moved = moved,
+                        .next = next,
                         .used = moved->head->used,
                         .known = known_blocks(collider, moved, next)};
     uint64_t *left = &collider->left[moved->head->frame & 1];

@@ -51,10 +51,10 @@ struct collider {
     /* state_fixed_hash() of frame fixed_hash_frame; UINT64_MAX: none yet */
     uint64_t fixed_hash, fixed_hash_frame;
     struct list_hashes lists; /* of the committed craters and dents */
-    uint64_t *written[2]; /* of the moved table, as this process saw it in the last two frames */
-    uint64_t left[2];     /* checksums of the two buffers as this process left them; 0: none */
-    uint64_t unsprung[CHECKSUM_BLOCKS]; /* of damage_overturned() */
-    uint64_t changed[CHECKSUM_BLOCKS];  /* columns that responses changed in this frame */
+    /* A bit for each row that the mover wrote in the last two frames, as this process saw it; and
+     * for each of this frame's that is on its springs, and that holds another body than before. */
+    uint64_t *written[2], *sprung, *fresh;
+    uint64_t left[2]; /* checksums of the two buffers as this process left them; 0: none */
 };
 
 /* Where the frame's events go: the ring, from the committed end on. */

@@ -92,7 +92,7 @@ struct vec3 entity_output_velocity_before(const struct entity_output *entities, 
 {
     const struct entities *e = &entities->snapshot.entities;
     const struct entity_sent *sent = &entities->sent[row];
-    if (sent->seen_id != e->id[row] && sent->id != e->id[row])
+    if (sent->seen_id != e->row[row].id && sent->id != e->row[row].id)
         return entities_velocity(e, row);
     if (sent->seen_tick < tick)
         return sent->seen_velocity;
@@ -106,9 +106,9 @@ static uint32_t appearance_of(const struct world *world, const struct snapshot *
 {
     static const uint8_t levels[DAMAGE_COUNT] = {0, 1, 2, 2, 3};
     const struct entities *e = &snapshot->entities;
-    const struct kind *kind = &world->kinds[e->kind[row]];
-    uint8_t damage = e->damage[row] < DAMAGE_COUNT ? e->damage[row] : DAMAGE_DESTROYED;
-    bool wreck = e->state[row] == ENTITY_WRECK;
+    const struct kind *kind = &world->kinds[e->row[row].kind];
+    uint8_t damage = e->row[row].damage < DAMAGE_COUNT ? e->row[row].damage : DAMAGE_DESTROYED;
+    bool wreck = e->row[row].state == ENTITY_WRECK;
     uint32_t appearance = PDU_APPEARANCE_DAMAGE(wreck ? 3 : levels[damage]);
     if (kind->domain == DOMAIN_LAND && !wreck) {
         appearance |= disabled_drive(kind, e, row) ? PDU_APPEARANCE_MOBILITY_KILL : 0;
@@ -116,7 +116,7 @@ static uint32_t appearance_of(const struct world *world, const struct snapshot *
     }
     if (wreck) {
         double since_s =
-            (double)((uint32_t)snapshot->head.tick - e->changed_tick[row]) * world_dt_s(world);
+            (double)((uint32_t)snapshot->head.tick - e->row[row].changed_tick) * world_dt_s(world);
         appearance |= PDU_APPEARANCE_MOBILITY_KILL | PDU_APPEARANCE_FIRE_KILL;
         appearance |= PDU_APPEARANCE_SMOKE | (since_s < FLAMES_S ? PDU_APPEARANCE_FLAMES : 0);
         if (kind->domain != DOMAIN_LAND)
@@ -168,7 +168,7 @@ static void observe(struct entity_sent *sent, const struct snapshot *snapshot, u
     const struct entities *e = &snapshot->entities;
     struct vec3 velocity = entities_velocity(e, row);
     double past_s = (double)(snapshot->head.tick - sent->seen_tick) * dt_s;
-    if (sent->seen_id != e->id[row] || past_s > 1.0) {
+    if (sent->seen_id != e->row[row].id || past_s > 1.0) {
         sent->acceleration = sent->rates = sent->seen_rates = (struct vec3){0};
     } else if (past_s > 0.0) {
         sent->acceleration = vec3_limited(
@@ -184,10 +184,10 @@ static void observe(struct entity_sent *sent, const struct snapshot *snapshot, u
     }
     if (follows)
         return; /* the next pass sees the motion since the last one */
-    if (sent->seen_id != e->id[row] && sent->id != e->id[row])
+    if (sent->seen_id != e->row[row].id && sent->id != e->row[row].id)
         sent->seen_velocity = velocity; /* it was somebody else's */
     note_velocity(sent, snapshot, row);
-    sent->seen_id = e->id[row];
+    sent->seen_id = e->row[row].id;
     sent->seen_turn = *turn;
 }
 
@@ -197,12 +197,12 @@ static bool stands(struct entity_sent *sent, const struct world *world,
                    const struct snapshot *snapshot, uint32_t row, uint64_t now_ns)
 {
     const struct entities *e = &snapshot->entities;
-    if (sent->id != e->id[row] || sent->state.model != DEAD_RECKONING_STATIC ||
-        now_ns >= sent->heartbeat_ns || sent->before_ns != 0 || sent->place.x != e->x[row] ||
-        sent->place.y != e->y[row] || sent->place.z != e->z[row] ||
-        sent->heading != e->heading[row] || sent->pitch != e->pitch[row] ||
-        sent->roll != e->roll[row] || sent->turret != e->turret[row] || sent->gun != e->gun[row] ||
-        sent->appearance != appearance_of(world, snapshot, row))
+    if (sent->id != e->row[row].id || sent->state.model != DEAD_RECKONING_STATIC ||
+        now_ns >= sent->heartbeat_ns || sent->before_ns != 0 || sent->place.x != e->row[row].x ||
+        sent->place.y != e->row[row].y || sent->place.z != e->row[row].z ||
+        sent->heading != e->row[row].heading || sent->pitch != e->row[row].pitch ||
+        sent->roll != e->row[row].roll || sent->turret != e->row[row].turret ||
+        sent->gun != e->row[row].gun || sent->appearance != appearance_of(world, snapshot, row))
         return false;
     if (sent->seen_tick != snapshot->head.tick)
         note_velocity(sent, snapshot, row); /* for observe(): it stood until now */
@@ -215,21 +215,22 @@ static struct row_view look_at(struct entity_output *entities, const struct worl
 {
     const struct snapshot *snapshot = &entities->snapshot;
     const struct entities *e = &snapshot->entities;
-    const struct kind *kind = &world->kinds[e->kind[row]];
-    struct mat3 turn = rotation_matrix(rotation_of(e->heading[row], e->pitch[row], e->roll[row]));
+    const struct kind *kind = &world->kinds[e->row[row].kind];
+    struct mat3 turn =
+        rotation_matrix(rotation_of(e->row[row].heading, e->row[row].pitch, e->row[row].roll));
     double scale = snapshot->head.paused ? 0.0 : snapshot->head.time_scale;
     struct mat3 axes = local_frame_axes(&entities->frame, entities_position(e, row));
     observe(&entities->sent[row], snapshot, row, &turn, world_dt_s(world), follows);
     return (struct row_view){
         .row = row,
-        .id = e->id[row],
+        .id = e->row[row].id,
         .axes = axes,
         .velocity = vec3_scale(rotation_apply(&axes, entities_velocity(e, row)), scale),
         .position = local_frame_ecef(&entities->frame, entities_position(e, row)),
         .matrix = local_frame_ecef_turn(&axes, &turn),
         .appearance = appearance_of(world, snapshot, row),
-        .turret = e->turret[row],
-        .gun = e->gun[row],
+        .turret = e->row[row].turret,
+        .gun = e->row[row].gun,
         .has_gun = kind->part_count > 0 && kind->domain != DOMAIN_MUNITION};
 }
 
@@ -452,8 +453,8 @@ static void send_state(struct entity_output *entities, const struct world *world
     static struct pdu pdu;
     const struct entities *e = &entities->snapshot.entities;
     struct entity_sent *sent = &entities->sent[view->row];
-    uint16_t kind = e->kind[view->row];
-    uint8_t force = e->force[view->row];
+    uint16_t kind = e->row[view->row].kind;
+    uint8_t force = e->row[view->row].force;
     const struct type_row *type = type_table_row(entities->types, kind, force);
     struct euler angles = euler_of(&view->matrix);
     pdu.header.type = PDU_ENTITY_STATE;
@@ -478,9 +479,9 @@ static void send_state(struct entity_output *entities, const struct world *world
     sent->kind = kind;
     sent->force = force;
     sent->place = entities_position(e, view->row);
-    sent->heading = e->heading[view->row];
-    sent->pitch = e->pitch[view->row];
-    sent->roll = e->roll[view->row];
+    sent->heading = e->row[view->row].heading;
+    sent->pitch = e->row[view->row].pitch;
+    sent->roll = e->row[view->row].roll;
     sent->turret = view->turret;
     sent->gun = view->gun;
     sent->frame_ns = entities->frame_ns;
@@ -559,9 +560,9 @@ static bool send_row(struct entity_output *entities, const struct world *world, 
     const struct snapshot *snapshot = &entities->snapshot;
     const struct entities *e = &snapshot->entities;
     struct entity_sent *sent = &entities->sent[row];
-    bool here = row < snapshot->head.used && e->state[row] != ENTITY_FREE &&
-                entity_output_sends(&world->kinds[e->kind[row]]) && !remote_is(e, row);
-    if (sent->id != 0 && (!here || sent->id != e->id[row])) {
+    bool here = row < snapshot->head.used && e->row[row].state != ENTITY_FREE &&
+                entity_output_sends(&world->kinds[e->row[row].kind]) && !remote_is(e, row);
+    if (sent->id != 0 && (!here || sent->id != e->row[row].id)) {
         if (!pdu_output_take(entities->output, PDU_OUTPUT_STATE, now_ns)) {
             entities->postponed++;
             return false;
@@ -571,11 +572,11 @@ static bool send_row(struct entity_output *entities, const struct world *world, 
     struct pdu_id id;
     if (!here)
         return true;
-    if (!entity_ids_of(&entities->ids, e->id[row], &id)) {
+    if (!entity_ids_of(&entities->ids, e->row[row].id, &id)) {
         entities->refused++;
         if (!entities->told_refused)
             log_warn("entity %u is not sent: gateway.applications = %u has room for %u ids",
-                     e->id[row], entities->ids.applications,
+                     e->row[row].id, entities->ids.applications,
                      entities->ids.applications * ENTITY_IDS_PER_APPLICATION);
         entities->told_refused = true;
         return true;
@@ -638,7 +639,7 @@ void entity_output_follow(struct entity_output *entities, const struct view *vie
     entities->frame_ns = (uint64_t)((frame_s(snapshot, &view->world) + entities->offset_s) * 1e9);
     for (uint32_t k = 0; k < entities->followed_count; k++) {
         uint32_t row = entities->followed[k];
-        if (entities->sent[row].id == e->id[row] &&
+        if (entities->sent[row].id == e->row[row].id &&
             !send_row(entities, &view->world, row, now_ns, true))
             return;
     }

@@ -38,10 +38,10 @@ static void remember_flights(struct event_output *events)
     const struct snapshot *snapshot = &events->entities->snapshot;
     const struct entities *e = &snapshot->entities;
     for (uint32_t row = 0; row < snapshot->head.used; row++) {
-        if (e->behaviour[row] != BEHAVIOUR_FLIGHT || e->state[row] == ENTITY_FREE)
+        if (e->row[row].behaviour != BEHAVIOUR_FLIGHT || e->row[row].state == ENTITY_FREE)
             continue;
-        uint32_t place = e->id[row] % EVENT_OUTPUT_SHOTS;
-        if (events->shot[place].munition == e->id[row])
+        uint32_t place = e->row[row].id % EVENT_OUTPUT_SHOTS;
+        if (events->shot[place].munition == e->row[row].id)
             events->shot[place].velocity = entities_velocity(e, row);
     }
 }
@@ -85,7 +85,7 @@ static struct pdu_id id_of(const struct event_output *events, uint32_t id)
     (void)entity_ids_of(&events->entities->ids, id, &to);
     if (is_remote(events, id)) {
         uint32_t row = entity_output_row(events->entities, id);
-        uint64_t remote = events->entities->snapshot.entities.driver[row];
+        uint64_t remote = events->entities->snapshot.entities.row[row].driver;
         to = (struct pdu_id){(uint16_t)(remote >> 32), (uint16_t)(remote >> 16), (uint16_t)remote};
     }
     return to;
@@ -133,7 +133,8 @@ static void set_point(float to[3], const struct event_output *events, struct eve
     if (row == SLOT_NONE)
         return;
     const struct entities *e = &events->entities->snapshot.entities;
-    struct mat3 turn = rotation_matrix(rotation_of(e->heading[row], e->pitch[row], e->roll[row]));
+    struct mat3 turn =
+        rotation_matrix(rotation_of(e->row[row].heading, e->row[row].pitch, e->row[row].roll));
     struct vec3 from_middle =
         vec3_sub((struct vec3){point[0], point[1], point[2]}, entities_position(e, row));
     vec3_to_floats(to, local_frame_body_to_dis(rotation_back(&turn, from_middle)));
@@ -283,7 +284,7 @@ static void note_met(const struct event_output *events, const struct event_colli
             continue;
         uint32_t row = entity_output_row(events->entities, other->id);
         remote_input_met(events->remotes, own[i]->id,
-                         events->entities->snapshot.entities.driver[row], now_ns);
+                         events->entities->snapshot.entities.row[row].driver, now_ns);
     }
 }
 

@@ -97,11 +97,11 @@ void remote_table_see(struct remote_table *table, const struct snapshot *snapsho
 {
     const struct entities *e = &snapshot->entities;
     for (uint32_t row = 0; row < snapshot->head.used; row++) {
-        if (!remote_is(e, row) || e->state[row] == ENTITY_FREE)
+        if (!remote_is(e, row) || e->row[row].state == ENTITY_FREE)
             continue;
-        struct remote_entry *entry = remote_table_find(table, e->driver[row]);
+        struct remote_entry *entry = remote_table_find(table, e->row[row].driver);
         if (!entry)
-            entry = remote_table_add(table, e->driver[row], now_ns);
+            entry = remote_table_add(table, e->row[row].driver, now_ns);
         if (!entry)
             continue;
         if (!entry->placed || entry->owner == 0)

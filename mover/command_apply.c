@@ -38,13 +38,13 @@ static uint32_t vehicle_row(const struct serial_context *context, uint32_t id)
 {
     const struct entities *m = &context->moved->entities;
     uint32_t row = entities_find(m, context->moved->head->used, id);
-    return row != SLOT_NONE && m->behaviour[row] == BEHAVIOUR_FLIGHT ? SLOT_NONE : row;
+    return row != SLOT_NONE && m->row[row].behaviour == BEHAVIOUR_FLIGHT ? SLOT_NONE : row;
 }
 
 static enum command_result set_behaviour(struct serial_context *context, uint32_t row,
                                          uint8_t behaviour)
 {
-    uint8_t from = context->moved->entities.behaviour[row];
+    uint8_t from = context->moved->entities.row[row].behaviour;
     if (from == behaviour)
         return COMMAND_DONE;
     struct event *event = serial_context_intent(context, EVENT_AGENT);
@@ -62,8 +62,8 @@ static enum command_result set_behaviour(struct serial_context *context, uint32_
 static bool taken(const struct serial_context *context, uint32_t row, const struct command *command)
 {
     const struct entities *m = &context->moved->entities;
-    return m->behaviour[row] == BEHAVIOUR_DRIVEN && m->driver[row] != 0 &&
-           m->driver[row] != command->source;
+    return m->row[row].behaviour == BEHAVIOUR_DRIVEN && m->row[row].driver != 0 &&
+           m->row[row].driver != command->source;
 }
 
 static enum command_result drive(struct serial_context *context, const struct command *command,
@@ -77,7 +77,7 @@ static enum command_result drive(struct serial_context *context, const struct co
         return COMMAND_NO_SUCH_ENTITY;
     if (remote_is(m, row))
         return COMMAND_REMOTE;
-    if (m->state[row] != ENTITY_ACTIVE)
+    if (m->row[row].state != ENTITY_ACTIVE)
         return COMMAND_CANNOT;
     if (taken(context, row, command))
         return COMMAND_TAKEN;
@@ -89,7 +89,7 @@ static enum command_result drive(struct serial_context *context, const struct co
         command->amount > COMMAND_LEASE_MAX)
         return COMMAND_OUT_OF_RANGE;
     serial_context_stop(context, row, context->step->tick - 1);
-    if (m->behaviour[row] != BEHAVIOUR_DRIVEN)
+    if (m->row[row].behaviour != BEHAVIOUR_DRIVEN)
         table_set_dodge(writer, row, 0.0f); /* wheels straight, engine warm */
     table_set_throttle(writer, row, (float)v[0]);
     table_set_steer(writer, row, (float)v[1]);
@@ -98,8 +98,8 @@ static enum command_result drive(struct serial_context *context, const struct co
     table_set_elevate(writer, row, (float)v[4]);
     table_set_brake(writer, row, (float)v[5]);
     table_set_flags(writer, row,
-                    (uint8_t)((m->flags[row] & ~ENTITY_GEAR_MASK) | (unsigned)command->force
-                                                                        << ENTITY_GEAR_SHIFT));
+                    (uint8_t)((m->row[row].flags & ~ENTITY_GEAR_MASK) | (unsigned)command->force
+                                                                            << ENTITY_GEAR_SHIFT));
     table_set_driver(writer, row, command->amount > 0 ? command->source : 0);
     table_set_until_tick(writer, row, (uint32_t)(context->step->tick + command->amount));
     return set_behaviour(context, row, BEHAVIOUR_DRIVEN);
@@ -114,15 +114,15 @@ static enum command_result release(struct serial_context *context, const struct 
         return COMMAND_NO_SUCH_ENTITY;
     if (remote_is(m, row))
         return COMMAND_REMOTE;
-    if (m->behaviour[row] != BEHAVIOUR_DRIVEN)
+    if (m->row[row].behaviour != BEHAVIOUR_DRIVEN)
         return COMMAND_CANNOT;
     if (command->amount == 0 && taken(context, row, command))
         return COMMAND_TAKEN;
-    table_row_changes(&context->writer, row);
+    table_note(&context->writer, row);
     driver_controls_release(m, row);
     /* The driver's lease is over. */
     table_set_until_tick(&context->writer, row, (uint32_t)context->step->tick);
-    return set_behaviour(context, row, m->order[row]);
+    return set_behaviour(context, row, m->row[row].order);
 }
 
 static enum command_result drop_bomb(struct serial_context *context, const struct command *command)
@@ -159,12 +159,12 @@ static enum command_result fire(struct serial_context *context, const struct com
     }
     if (taken(context, row, command))
         return COMMAND_TAKEN;
-    if (m->state[row] != ENTITY_ACTIVE || step->tick < m->reload_tick[row] || m->rounds[row] == 0 ||
-        step->world->kinds[m->kind[row]].munition == KIND_NONE)
+    if (m->row[row].state != ENTITY_ACTIVE || step->tick < m->row[row].reload_tick ||
+        m->row[row].rounds == 0 || step->world->kinds[m->row[row].kind].munition == KIND_NONE)
         return COMMAND_CANNOT;
     serial_context_stop(context, row, context->step->tick - 1);
     if (target != SLOT_NONE) { /* the gun turns to the target even if it cannot fire yet */
-        table_set_target(&context->writer, row, target, m->id[target]);
+        table_set_target(&context->writer, row, target, m->row[target].id);
         if (target >= step->committed->head->used || !turret_bears(step, m, row, target))
             return COMMAND_CANNOT;
     }
@@ -180,7 +180,7 @@ static bool crowded(const struct serial_context *context, struct vec3 place)
     uint32_t count = 0;
     for (uint32_t row = 0; row < context->moved->head->used && count < COMMAND_SPOT_VEHICLES;
          row++) {
-        if (m->state[row] == ENTITY_FREE || m->behaviour[row] == BEHAVIOUR_FLIGHT)
+        if (m->row[row].state == ENTITY_FREE || m->row[row].behaviour == BEHAVIOUR_FLIGHT)
             continue;
         struct vec3 away = vec3_sub(entities_position(m, row), place);
         count += vec3_dot(away, away) < COMMAND_SPOT_M * COMMAND_SPOT_M;
@@ -194,9 +194,10 @@ static void set_on_ground(const struct serial_context *context, uint32_t row)
     const struct step_context *step = context->step;
     const struct entities *m = &context->moved->entities;
     struct rest_pose pose =
-        rest_pose_of(&step->world->terrain, step->craters, &step->world->kinds[m->kind[row]],
-                     m->x[row], m->z[row], m->heading[row]);
-    table_set_position(&context->writer, row, (struct vec3){m->x[row], pose.y_m, m->z[row]});
+        rest_pose_of(&step->world->terrain, step->craters, &step->world->kinds[m->row[row].kind],
+                     m->row[row].x, m->row[row].z, m->row[row].heading);
+    table_set_position(&context->writer, row,
+                       (struct vec3){m->row[row].x, pose.y_m, m->row[row].z});
     table_set_pitch(&context->writer, row, pose.pitch_rad);
     table_set_roll(&context->writer, row, pose.roll_rad);
 }
@@ -247,7 +248,7 @@ static enum command_result spawn(struct serial_context *context, const struct co
     table_set_order(writer, row, (uint8_t)command->amount);
     table_set_goal_x(writer, row, v[0]);
     table_set_goal_z(writer, row, v[1]);
-    *entity = context->moved->entities.id[row];
+    *entity = context->moved->entities.row[row].id;
     return COMMAND_DONE;
 }
 

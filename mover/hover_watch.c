@@ -48,16 +48,16 @@ void hover_watch_note(struct hover_watch *watch, const struct step_context *cont
         return;
     }
     watch->hovers[i / 64] |= bit;
-    mark(watch, context->m->x[i], context->m->z[i]);
+    mark(watch, context->m->row[i].x, context->m->row[i].z);
 }
 
 bool hover_watch_alone(const struct step_context *context, uint32_t i)
 {
     const struct entities *w = &context->committed->entities;
     const struct neighbour_index_entry *entry;
-    double reach_m = aircraft_separation_reach(context, w->kind[i], 0.0) + 0.5 * NEAR_M;
+    double reach_m = aircraft_separation_reach(context, w->row[i].kind, 0.0) + 0.5 * NEAR_M;
     struct neighbour_query query = neighbour_query_begin(
-        context->neighbours, NEIGHBOUR_INDEX_LIVING, w->x[i], w->z[i], reach_m);
+        context->neighbours, NEIGHBOUR_INDEX_LIVING, w->row[i].x, w->row[i].z, reach_m);
     while ((entry = neighbour_query_next(&query)) != NULL) {
         if (entry->row != i && context->world->kinds[entry->kind].domain == DOMAIN_AIR)
             return false;
@@ -92,7 +92,7 @@ static void find_squares(struct hover_watch *watch, const uint64_t *resting,
     for (uint32_t n = 0; n < words; n++) {
         for (uint64_t left = watch->hovers[n] & resting[n]; left != 0; left &= left - 1) {
             uint32_t i = n * 64 + (uint32_t)__builtin_ctzll(left);
-            mark(watch, w->x[i], w->z[i]);
+            mark(watch, w->row[i].x, w->row[i].z);
         }
     }
 }
@@ -119,10 +119,10 @@ static void wake_around(struct hover_watch *watch, uint64_t *resting,
 {
     const struct entities *w = &context->committed->entities;
     const struct neighbour_index_entry *entry;
-    if (!is_marked(watch, w->x[i], w->z[i]))
+    if (!is_marked(watch, w->row[i].x, w->row[i].z))
         return;
     struct neighbour_query query = neighbour_query_begin(
-        context->neighbours, NEIGHBOUR_INDEX_LIVING, w->x[i], w->z[i], watch->reach_m);
+        context->neighbours, NEIGHBOUR_INDEX_LIVING, w->row[i].x, w->row[i].z, watch->reach_m);
     while ((entry = neighbour_query_next(&query)) != NULL) {
         const uint64_t bit = (uint64_t)1 << entry->row % 64;
         resting[entry->row / 64] &= ~(watch->hovers[entry->row / 64] & bit);
@@ -154,8 +154,8 @@ void hover_watch_wake(struct hover_watch *watch, uint64_t *resting, const uint64
         uint64_t there = UINT64_MAX >> (used - n * 64 < 64 ? 64 - (used - n * 64) : 0);
         for (uint64_t left = (~resting[n] | cruising[n]) & there; left != 0; left &= left - 1) {
             uint32_t i = n * 64 + (uint32_t)__builtin_ctzll(left);
-            if (w->state[i] != ENTITY_FREE &&
-                context->world->kinds[w->kind[i]].domain == DOMAIN_AIR)
+            if (w->row[i].state != ENTITY_FREE &&
+                context->world->kinds[w->row[i].kind].domain == DOMAIN_AIR)
                 wake_around(watch, resting, context, i);
         }
     }

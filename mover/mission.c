@@ -1,4 +1,4 @@
-/* Goes through missions and objectives in turns. A phase's orders are written into the columns that
+/* Goes through missions and objectives in turns. A phase's orders are written into the fields that
  * agents obey: order, its argument, and whom to fire at. A vehicle that fights, flees or goes for
  * rounds obeys when it has done so; orders to withdraw and to resupply end a fight. */
 #include "mover/mission.h"
@@ -54,7 +54,7 @@ static enum behaviour order_of(const struct battle_phase *phase)
 /* Returns true if the row begins with a new order at once. */
 static bool obeys_at_once(const struct entities *m, uint32_t row, const struct battle_phase *phase)
 {
-    switch ((enum behaviour)m->behaviour[row]) {
+    switch ((enum behaviour)m->row[row].behaviour) {
     case BEHAVIOUR_IDLE:
     case BEHAVIOUR_PATROL:
     case BEHAVIOUR_ROUTE:
@@ -69,7 +69,7 @@ static bool obeys_at_once(const struct entities *m, uint32_t row, const struct b
 
 static void change_behaviour(struct serial_context *context, uint32_t row, enum behaviour to)
 {
-    uint8_t from = context->moved->entities.behaviour[row];
+    uint8_t from = context->moved->entities.row[row].behaviour;
     struct event *event = from != to ? serial_context_intent(context, EVENT_AGENT) : NULL;
     if (event) {
         event->agent = (struct event_agent){serial_context_party(context, row), from, (uint32_t)to,
@@ -79,8 +79,8 @@ static void change_behaviour(struct serial_context *context, uint32_t row, enum 
     table_set_behaviour(&context->writer, row, (uint8_t)to);
     table_set_target(&context->writer, row, 0, 0);
     /* It has arrived, so its agent chooses the next goal. */
-    table_set_goal_x(&context->writer, row, context->moved->entities.x[row]);
-    table_set_goal_z(&context->writer, row, context->moved->entities.z[row]);
+    table_set_goal_x(&context->writer, row, context->moved->entities.row[row].x);
+    table_set_goal_z(&context->writer, row, context->moved->entities.row[row].z);
 }
 
 /* Followers keep their places in their formation, whose leader obeys. */
@@ -91,10 +91,10 @@ static void give_order(struct serial_context *context, const struct battle_phase
     const struct table_writer *writer = &context->writer;
     enum behaviour order = order_of(phase);
     const uint32_t engage = ENTITY_FLAG_FIRE_AT_WILL | ENTITY_FLAG_HOLD_FIRE;
-    if (m->behaviour[row] == BEHAVIOUR_HOLD || m->order[row] == BEHAVIOUR_SCRIPT)
+    if (m->row[row].behaviour == BEHAVIOUR_HOLD || m->row[row].order == BEHAVIOUR_SCRIPT)
         return;
-    table_set_flags(writer, row, (uint8_t)((m->flags[row] & ~engage) | phase->engage));
-    if (m->order[row] == BEHAVIOUR_FOLLOW)
+    table_set_flags(writer, row, (uint8_t)((m->row[row].flags & ~engage) | phase->engage));
+    if (m->row[row].order == BEHAVIOUR_FOLLOW)
         return;
     table_set_order(writer, row, (uint8_t)order);
     table_set_order_arg(writer, row,
@@ -135,14 +135,14 @@ static void begin_phase(struct serial_context *context, uint32_t index, uint32_t
 static void supply(struct serial_context *context, const struct battle_phase *phase, uint32_t row)
 {
     const struct entities *m = &context->moved->entities;
-    const struct kind *kind = &context->step->world->kinds[m->kind[row]];
+    const struct kind *kind = &context->step->world->kinds[m->row[row].kind];
     if (!mission_conditions_there(context, phase, row))
         return;
-    uint32_t rounds = m->rounds[row] + (uint32_t)ceil((double)kind->rounds / SUPPLY_S);
-    double fuel = m->fuel_l[row] + kind->fuel_l / SUPPLY_S;
-    if (m->rounds[row] < kind->rounds)
+    uint32_t rounds = m->row[row].rounds + (uint32_t)ceil((double)kind->rounds / SUPPLY_S);
+    double fuel = m->row[row].fuel_l + kind->fuel_l / SUPPLY_S;
+    if (m->row[row].rounds < kind->rounds)
         table_set_rounds(&context->writer, row, rounds < kind->rounds ? rounds : kind->rounds);
-    if (m->fuel_l[row] < kind->fuel_l)
+    if (m->row[row].fuel_l < kind->fuel_l)
         table_set_fuel_l(&context->writer, row, maths_min(fuel, kind->fuel_l));
 }
 
@@ -209,8 +209,8 @@ static void count_forces(const struct serial_context *context, uint32_t able[FOR
     const struct entities *m = &context->moved->entities;
     memset(able, 0, FORCE_COUNT * sizeof *able);
     for (uint32_t row = 0; row < context->moved->head->used; row++) {
-        if (m->state[row] == ENTITY_ACTIVE && m->behaviour[row] != BEHAVIOUR_FLIGHT)
-            able[m->force[row] % FORCE_COUNT]++;
+        if (m->row[row].state == ENTITY_ACTIVE && m->row[row].behaviour != BEHAVIOUR_FLIGHT)
+            able[m->row[row].force % FORCE_COUNT]++;
     }
 }
 
@@ -224,10 +224,10 @@ static void refill(struct serial_context *context, const struct mission *mission
         const uint32_t row = member[n];
         if (!mission_conditions_active(context, row))
             continue;
-        const struct kind *kind = &world->kinds[m->kind[row]];
-        if (m->rounds[row] < kind->rounds)
+        const struct kind *kind = &world->kinds[m->row[row].kind];
+        if (m->row[row].rounds < kind->rounds)
             table_set_rounds(&context->writer, row, kind->rounds);
-        if (m->fuel_l[row] < kind->fuel_l)
+        if (m->row[row].fuel_l < kind->fuel_l)
             table_set_fuel_l(&context->writer, row, kind->fuel_l);
     }
 }

@@ -78,13 +78,13 @@ static void fire_directly(struct serial_context *context, const struct battle_ph
                           uint32_t row)
 {
     const struct entities *m = &context->moved->entities;
-    const struct kind *kinds = context->step->world->kinds, *kind = &kinds[m->kind[row]];
-    if (m->behaviour[row] != BEHAVIOUR_IDLE || kind->munition == KIND_NONE ||
-        kinds[kind->munition].delivery == DELIVERY_ARC || m->rounds[row] == 0 ||
-        context->step->tick < m->reload_tick[row])
+    const struct kind *kinds = context->step->world->kinds, *kind = &kinds[m->row[row].kind];
+    if (m->row[row].behaviour != BEHAVIOUR_IDLE || kind->munition == KIND_NONE ||
+        kinds[kind->munition].delivery == DELIVERY_ARC || m->row[row].rounds == 0 ||
+        context->step->tick < m->row[row].reload_tick)
         return;
-    const struct fire_mission_order at = volley_at(context, phase, m->id[row]);
-    double dx = at.x - m->x[row], dz = at.z - m->z[row];
+    const struct fire_mission_order at = volley_at(context, phase, m->row[row].id);
+    double dx = at.x - m->row[row].x, dz = at.z - m->row[row].z;
     if (dx * dx + dz * dz <= kind->range_m * kind->range_m)
         fire_shoot_at(context, row, at.x, at.z, KIND_NONE);
 }

@@ -14,7 +14,7 @@
 bool mission_conditions_active(const struct serial_context *context, uint32_t slot)
 {
     const struct entities *m = &context->moved->entities;
-    return entities_alive(m, slot, slot + 1) && m->state[slot] == ENTITY_ACTIVE;
+    return entities_alive(m, slot, slot + 1) && m->row[slot].state == ENTITY_ACTIVE;
 }
 
 static bool within(const struct objective *objective, struct vec3 at)
@@ -37,10 +37,10 @@ static void count_present(const struct step_context *step, const struct objectiv
         objective->z0 + 0.5 * deep_m, 0.5 * sqrt(wide_m * wide_m + deep_m * deep_m) + ROUNDED_M);
     while ((entry = neighbour_query_next(&query))) {
         uint32_t row = entry->row;
-        enum domain domain = (enum domain)kinds[w->kind[row]].domain;
+        enum domain domain = (enum domain)kinds[w->row[row].kind].domain;
         if ((domain == DOMAIN_LAND || domain == DOMAIN_SEA) &&
             within(objective, step_context_position(step, w, row)))
-            present[w->force[row] % FORCE_COUNT]++;
+            present[w->row[row].force % FORCE_COUNT]++;
     }
 }
 

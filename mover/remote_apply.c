@@ -94,11 +94,11 @@ static const struct kind *kind_of(const struct serial_context *context, uint16_t
 
 /* --- rows --------------------------------------------------------------------------------------*/
 
-/* Writes a cell if it changes: a column of a block that is written is hashed again, and most
- * records of an entity at rest say what is known. */
+/* Writes a field if it changes: a row that is written wakes, and most records of an entity at rest
+ * say what is known. */
 #define PUT(context, row, name, value)                                                             \
     do {                                                                                           \
-        if ((context)->moved->entities.name[row] != (value))                                       \
+        if ((context)->moved->entities.row[row].name != (value))                                   \
             table_set_##name(&(context)->writer, row, value);                                      \
     } while (0)
 
@@ -108,7 +108,7 @@ static uint32_t find(const struct serial_context *context, uint64_t remote, uint
 {
     const struct entities *m = &context->moved->entities;
     uint32_t used = context->moved->head->used;
-    if (slot < used && remote_is(m, slot) && m->driver[slot] == remote)
+    if (slot < used && remote_is(m, slot) && m->row[slot].driver == remote)
         return slot;
     return remote_index_find(context->remotes, m, used, remote);
 }
@@ -117,9 +117,9 @@ static void set_state(struct serial_context *context, uint32_t row,
                       const struct remote_record *record)
 {
     const struct entities *m = &context->moved->entities;
-    bool flies = m->behaviour[row] == BEHAVIOUR_FLIGHT;
+    bool flies = m->row[row].behaviour == BEHAVIOUR_FLIGHT;
     bool destroyed = record->damage == DAMAGE_DESTROYED && !flies;
-    if (record->damage > m->damage[row])
+    if (record->damage > m->row[row].damage)
         PUT(context, row, changed_tick, (uint32_t)context->step->tick);
     PUT(context, row, damage, record->damage);
     PUT(context, row, state, destroyed ? ENTITY_WRECK : ENTITY_ACTIVE);
@@ -211,7 +211,7 @@ static void set_place(struct serial_context *context, uint32_t row,
         set_attitude(context, row, attitude);
         return;
     }
-    struct quat now = rotation_of(m->heading[row], m->pitch[row], m->roll[row]);
+    struct quat now = rotation_of(m->row[row].heading, m->row[row].pitch, m->row[row].roll);
     struct vec3 drift = vec3_sub(to, entities_position(m, row)), turn = turn_between(now, attitude);
     bool at_once =
         context->moved->head->paused || vec3_length(drift) > SNAP_M || vec3_length(turn) > SNAP_RAD;
@@ -235,7 +235,7 @@ static enum remote_refusal new_row(struct serial_context *context,
     *row = spawn_entity(context, record->kind, record->force);
     if (*row == SLOT_NONE)
         return REMOTE_NO_ROW;
-    if (context->moved->entities.behaviour[*row] != BEHAVIOUR_FLIGHT)
+    if (context->moved->entities.row[*row].behaviour != BEHAVIOUR_FLIGHT)
         table_set_behaviour(&context->writer, *row, BEHAVIOUR_REMOTE);
     table_set_order(&context->writer, *row, BEHAVIOUR_REMOTE);
     table_set_driver(&context->writer, *row, record->remote);
@@ -289,7 +289,7 @@ static uint32_t own_row(const struct serial_context *context, uint32_t id)
 {
     const struct entities *m = &context->moved->entities;
     uint32_t row = id == 0 ? SLOT_NONE : entities_find(m, context->moved->head->used, id);
-    return row == SLOT_NONE || m->behaviour[row] == BEHAVIOUR_FLIGHT || remote_is(m, row)
+    return row == SLOT_NONE || m->row[row].behaviour == BEHAVIOUR_FLIGHT || remote_is(m, row)
                ? SLOT_NONE
                : row;
 }
@@ -330,7 +330,7 @@ static enum remote_refusal tell_fire(struct serial_context *context,
     }
     context->moved->head->tally.fires++;
     if (firer != SLOT_NONE && target != SLOT_NONE)
-        table_set_threat(&context->writer, target, firer, m->id[firer]);
+        table_set_threat(&context->writer, target, firer, m->row[firer].id);
     return REMOTE_TAKEN;
 }
 
@@ -369,10 +369,10 @@ static struct approach approach_vehicle(const struct serial_context *context,
                                         const struct remote_record *record, uint32_t target)
 {
     const struct entities *m = &context->moved->entities;
-    const struct kind *vehicle = &context->step->world->kinds[m->kind[target]];
+    const struct kind *vehicle = &context->step->world->kinds[m->row[target].kind];
     const struct kind *round = &context->step->world->kinds[record->kind];
-    struct mat3 turn =
-        rotation_matrix(rotation_of(m->heading[target], m->pitch[target], m->roll[target]));
+    struct mat3 turn = rotation_matrix(
+        rotation_of(m->row[target].heading, m->row[target].pitch, m->row[target].roll));
     double reach = maths_max(vehicle->bound_m, vehicle->radius_m);
     struct vec3 at = entities_position(m, target);
     struct vec3 point = vec3_add(at, rotation_apply(&turn, within_body(vehicle, place_of(record))));
@@ -455,7 +455,7 @@ static enum remote_refusal detonates(struct serial_context *context,
     uint32_t firer = firer_row(context, record);
     if (firer != SLOT_NONE) {
         table_set_owner_slot(writer, row, firer);
-        table_set_owner_id(writer, row, m->id[firer]);
+        table_set_owner_id(writer, row, m->row[firer].id);
     }
     return REMOTE_TAKEN;
 }
@@ -530,7 +530,7 @@ static void scale_row(struct serial_context *context, uint32_t row, double ratio
     const struct entities *m = &context->moved->entities;
     struct vec3 acceleration = vec3_limited(vec3_scale(remote_acceleration(m, row), ratio * ratio),
                                             ACCELERATION_MOST_MPS2);
-    struct vec3 spin = {m->spin_x[row], m->spin_y[row], m->spin_z[row]};
+    struct vec3 spin = {m->row[row].spin_x, m->row[row].spin_y, m->row[row].spin_z};
     table_set_velocity(&context->writer, row,
                        vec3_limited(vec3_scale(entities_velocity(m, row), ratio), SPEED_MOST_MPS));
     table_set_spin(&context->writer, row, vec3_limited(vec3_scale(spin, ratio), RATE_MOST_RPS));

@@ -46,9 +46,9 @@ static struct strike strike_of(const struct serial_context *context,
                                const struct remote_record *record, uint32_t target)
 {
     const struct entities *m = &context->moved->entities;
-    const struct kind *kind = &context->step->world->kinds[m->kind[target]];
-    struct mat3 turn =
-        rotation_matrix(rotation_of(m->heading[target], m->pitch[target], m->roll[target]));
+    const struct kind *kind = &context->step->world->kinds[m->row[target].kind];
+    struct mat3 turn = rotation_matrix(
+        rotation_of(m->row[target].heading, m->row[target].pitch, m->row[target].roll));
     struct vec3 point = {record->position[0], record->position[1], record->position[2]};
     struct vec3 velocity = {(double)record->velocity[0], (double)record->velocity[1],
                             (double)record->velocity[2]};
@@ -72,18 +72,18 @@ static struct strike strike_of(const struct serial_context *context,
 static void push(struct serial_context *context, uint32_t target, const struct strike *strike)
 {
     const struct entities *m = &context->moved->entities;
-    const struct kind *kind = &context->step->world->kinds[m->kind[target]];
+    const struct kind *kind = &context->step->world->kinds[m->row[target].kind];
     struct vec3 gain = vec3_scale(strike->normal, strike->impulse_ns / kind->mass_kg);
     table_set_velocity(&context->writer, target, vec3_add(entities_velocity(m, target), gain));
-    if (m->state[target] == ENTITY_WRECK) {
+    if (m->row[target].state == ENTITY_WRECK) {
         table_set_until_tick(&context->writer, target, 0);
         return;
     }
     table_set_harm_j(&context->writer, target,
-                     m->harm_j[target] +
-                         impact_harm(kind, m->harm_j[target], 0.5 * strike->lost_j));
-    if (kind->domain == DOMAIN_LAND && m->behaviour[target] != BEHAVIOUR_HOLD) {
-        table_set_flags(&context->writer, target, m->flags[target] | ENTITY_FLAG_CHASSIS);
+                     m->row[target].harm_j +
+                         impact_harm(kind, m->row[target].harm_j, 0.5 * strike->lost_j));
+    if (kind->domain == DOMAIN_LAND && m->row[target].behaviour != BEHAVIOUR_HOLD) {
+        table_set_flags(&context->writer, target, m->row[target].flags | ENTITY_FLAG_CHASSIS);
         table_set_jolt_tick(&context->writer, target, (uint32_t)context->step->tick);
     }
 }

@@ -30,8 +30,9 @@ int resting_rows_init(struct resting_rows *rows, uint32_t capacity, double side_
                                   .turns = calloc(words_of(capacity), sizeof *rows->turns),
                                   .cruising = calloc(words_of(capacity), sizeof *rows->cruising),
                                   .fresh = calloc(words_of(capacity), sizeof *rows->fresh),
+                                  .end = calloc(capacity, sizeof *rows->end),
                                   .ends = calloc(words_of(capacity), sizeof *rows->ends)};
-    if (rows->resting && rows->turns && rows->cruising && rows->fresh && rows->ends &&
+    if (rows->resting && rows->turns && rows->cruising && rows->fresh && rows->end && rows->ends &&
         hover_watch_init(&rows->hovering, (uint32_t)words_of(capacity), side_m) == 0)
         return 0;
     resting_rows_free(rows);
@@ -44,6 +45,7 @@ void resting_rows_free(struct resting_rows *rows)
     free(rows->turns);
     free(rows->cruising);
     free(rows->fresh);
+    free(rows->end);
     free(rows->ends);
     hover_watch_free(&rows->hovering);
     *rows = (struct resting_rows){0};
@@ -61,18 +63,11 @@ void resting_rows_wake_block(struct resting_rows *rows, uint32_t block)
     memset(block_of(rows, block), 0, ROW_BLOCK_BYTES);
 }
 
-void resting_rows_wake_differing(struct resting_rows *rows, struct table moved,
-                                 struct table committed, uint32_t block, uint32_t used)
+void resting_rows_wake(struct resting_rows *rows, uint32_t block, const uint64_t *bits)
 {
-    uint64_t *resting = block_of(rows, block), differ[ROW_BLOCK_WORDS] = {0}, any = 0;
+    uint64_t *resting = block_of(rows, block);
     for (uint32_t w = 0; w < ROW_BLOCK_WORDS; w++)
-        any |= resting[w];
-    if (any == 0 ||
-        memcmp(&moved.hashes[block], &committed.hashes[block], sizeof *moved.hashes) == 0)
-        return;
-    table_differing(moved, committed, block, used, COLUMNS_ALL, CHECKSUM_ROWS, differ);
-    for (uint32_t w = 0; w < ROW_BLOCK_WORDS; w++)
-        resting[w] &= ~differ[w];
+        resting[w] &= ~bits[w];
 }
 
 static void wake_near(struct resting_rows *rows, const struct step_context *context,
@@ -111,9 +106,10 @@ static uint64_t due_of(const struct step_context *context, uint32_t first, uint6
     uint64_t due = 0;
     for (; word != 0; word &= word - 1) {
         uint32_t k = (uint32_t)__builtin_ctzll(word), i = first + k;
-        bool is_due = step_context_thinks(context, i) ||
-                      (neighbour_index_divides(aims, (uint32_t)context->tick + context->m->id[i]) &&
-                       attack_ready(context, i));
+        bool is_due =
+            step_context_thinks(context, i) ||
+            (neighbour_index_divides(aims, (uint32_t)context->tick + context->m->row[i].id) &&
+             attack_ready(context, i));
         due |= (uint64_t)is_due << k;
     }
     return due;
@@ -127,7 +123,7 @@ static uint64_t ended_of(const struct resting_rows *rows, const struct step_cont
     uint64_t ended = 0;
     uint32_t next = UINT32_MAX;
     for (uint64_t left = rows->cruising[first / 64]; left != 0; left &= left - 1) {
-        uint32_t k = (uint32_t)__builtin_ctzll(left), end = context->m->cruise_tick[first + k];
+        uint32_t k = (uint32_t)__builtin_ctzll(left), end = rows->end[first + k];
         if (end < context->tick)
             ended |= left & -left;
         else
@@ -168,16 +164,16 @@ uint32_t resting_rows_awake(const struct resting_rows *rows, const struct step_c
 static bool is_still(const struct entities *m, uint32_t i)
 {
     return entities_still(m, i) &&
-           (!(m->flags[i] & ENTITY_FLAG_CHASSIS) || m->jolt_tick[i] == ENTITY_PINNED);
+           (!(m->row[i].flags & ENTITY_FLAG_CHASSIS) || m->row[i].jolt_tick == ENTITY_PINNED);
 }
 
 /* Returns true if nothing that the row knows lets it do anything else than stand. */
 static bool is_at_ease(const struct step_context *context, uint32_t i)
 {
     const struct entities *m = context->m;
-    return kinematics_parked(m, i) && is_still(m, i) && m->target_id[i] == 0 &&
-           m->threat_id[i] == 0 && m->bumped[i] == 0 && m->trigger[i] == 0 &&
-           !(m->flags[i] & ENTITY_FLAG_BURST) && context->tick >= m->until_tick[i] &&
+    return kinematics_parked(m, i) && is_still(m, i) && m->row[i].target_id == 0 &&
+           m->row[i].threat_id == 0 && m->row[i].bumped == 0 && m->row[i].trigger == 0 &&
+           !(m->row[i].flags & ENTITY_FLAG_BURST) && context->tick >= m->row[i].until_tick &&
            !perception_hurt_soon(context, i);
 }
 
@@ -186,20 +182,20 @@ static bool is_at_ease(const struct step_context *context, uint32_t i)
 static bool stands_laid(const struct step_context *context, uint32_t i)
 {
     const struct entities *m = context->m;
-    const struct kind *kind = &context->world->kinds[m->kind[i]];
-    return m->target_id[i] != 0 && m->throttle[i] == 0.0f && m->steer[i] == 0.0f &&
-           m->traverse[i] == 0.0f && m->elevate[i] == 0.0f && m->trigger[i] == 0 &&
+    const struct kind *kind = &context->world->kinds[m->row[i].kind];
+    return m->row[i].target_id != 0 && m->row[i].throttle == 0.0f && m->row[i].steer == 0.0f &&
+           m->row[i].traverse == 0.0f && m->row[i].elevate == 0.0f && m->row[i].trigger == 0 &&
            kind->domain == DOMAIN_LAND && kind->munition != KIND_NONE && entities_still(m, i) &&
-           m->threat_id[i] == 0 && m->bumped[i] == 0 &&
-           !(m->flags[i] & (ENTITY_FLAG_BURST | ENTITY_FLAG_CHASSIS)) &&
+           m->row[i].threat_id == 0 && m->row[i].bumped == 0 &&
+           !(m->row[i].flags & (ENTITY_FLAG_BURST | ENTITY_FLAG_CHASSIS)) &&
            !perception_hurt_soon(context, i);
 }
 
-/* Columns by which a decision acts on later ones alone, and fuel that is burnt in a turn. */
-#define DECIDED_COLUMNS                                                                            \
-    (COLUMN_BIT(fuel_l) | COLUMN_BIT(goal_x) | COLUMN_BIT(goal_z) | COLUMN_BIT(target_slot) |      \
-     COLUMN_BIT(target_id) | COLUMN_BIT(until_tick) | COLUMN_BIT(seen_tick) |                      \
-     COLUMN_BIT(reload_tick) | COLUMN_BIT(traverse) | COLUMN_BIT(elevate))
+/* Fields by which a decision acts on later ones alone, and fuel that is burnt in a turn. */
+#define DECIDED_FIELDS                                                                             \
+    (FIELD_BIT(fuel_l) | FIELD_BIT(goal_x) | FIELD_BIT(goal_z) | FIELD_BIT(target_slot) |          \
+     FIELD_BIT(target_id) | FIELD_BIT(until_tick) | FIELD_BIT(seen_tick) |                         \
+     FIELD_BIT(reload_tick) | FIELD_BIT(traverse) | FIELD_BIT(elevate))
 
 enum rest { REST_NONE, REST_TURNS, REST_LAID, REST_HOVERS, REST_CRUISE, REST_ALL };
 
@@ -218,14 +214,14 @@ static bool only_burns(const struct resting_rows *rows, uint32_t i)
 static enum rest rest_of_agent(const struct resting_rows *rows, const struct step_context *context,
                                uint32_t i, bool decided)
 {
-    bool flies = context->world->kinds[context->m->kind[i]].domain == DOMAIN_AIR;
+    bool flies = context->world->kinds[context->m->row[i].kind].domain == DOMAIN_AIR;
     if (!decided && !only_burns(rows, i))
         return REST_TURNS;
     if (!perception_settled(context, i))
         return REST_TURNS;
     if (!flies)
         return REST_ALL;
-    return !(context->m->flags[i] & ENTITY_FLAG_LANDED) && hover_watch_alone(context, i)
+    return !(context->m->row[i].flags & ENTITY_FLAG_LANDED) && hover_watch_alone(context, i)
                ? REST_HOVERS
                : REST_TURNS;
 }
@@ -237,11 +233,12 @@ static enum rest rest_of(const struct resting_rows *rows, const struct step_cont
     const struct entities *m = context->m;
     switch (motion) {
     case MOTION_NONE:
-        return m->state[i] == ENTITY_FREE ? REST_ALL : REST_NONE;
+        return m->row[i].state == ENTITY_FREE ? REST_ALL : REST_NONE;
     case MOTION_WRECK:
-        return wreck_rests(context, i) && m->trigger[i] == 0 ? REST_ALL : REST_NONE;
+        return wreck_rests(context, i) && m->row[i].trigger == 0 ? REST_ALL : REST_NONE;
     case MOTION_HOLD: /* a gun with a target is laid in the row's turn */
-        return is_still(m, i) && m->trigger[i] == 0 && m->target_id[i] == 0 ? REST_ALL : REST_NONE;
+        return is_still(m, i) && m->row[i].trigger == 0 && m->row[i].target_id == 0 ? REST_ALL
+                                                                                    : REST_NONE;
     case MOTION_COURSE:
     case MOTION_AGENT:
         return is_at_ease(context, i)    ? rest_of_agent(rows, context, i, motion == MOTION_AGENT)
@@ -250,7 +247,7 @@ static enum rest rest_of(const struct resting_rows *rows, const struct step_cont
     case MOTION_CRUISE:
         return REST_CRUISE;
     case MOTION_REMOTE:
-        return remote_motion_stands(m, i) && m->trigger[i] == 0 ? REST_ALL : REST_NONE;
+        return remote_motion_stands(m, i) && m->row[i].trigger == 0 ? REST_ALL : REST_NONE;
     case MOTION_FLIGHT:
     case MOTION_ALONE:
         break;
@@ -262,12 +259,12 @@ static enum rest rest_of(const struct resting_rows *rows, const struct step_cont
 static bool has_changed(const struct resting_rows *rows, const struct step_context *context,
                         uint32_t i, enum rest rest)
 {
-    uint64_t columns = entities_differing(context->m, &context->committed->entities, i);
+    uint64_t fields = entity_differing(&context->m->row[i], &context->committed->entities.row[i]);
     if (rest == REST_HOVERS && only_burns(rows, i))
-        columns &= ~COLUMN_BIT(fuel_l);
+        fields &= ~FIELD_BIT(fuel_l);
     if (rest == REST_LAID)
-        columns &= ~DECIDED_COLUMNS;
-    return columns != 0;
+        fields &= ~DECIDED_FIELDS;
+    return fields != 0;
 }
 
 static void settle_row(struct resting_rows *rows, const struct step_context *context, uint32_t i,
@@ -282,8 +279,9 @@ static void settle_row(struct resting_rows *rows, const struct step_context *con
     if (rest == REST_CRUISE) { /* whatever has changed, it changes no more */
         rows->cruising[i / 64] |= bit;
         rows->fresh[i / 64] |= bit;
-        if (context->m->cruise_tick[i] < rows->ends[i / 64])
-            rows->ends[i / 64] = context->m->cruise_tick[i];
+        rows->end[i] = context->m->row[i].cruise_tick;
+        if (rows->end[i] < rows->ends[i / 64])
+            rows->ends[i / 64] = rows->end[i];
         *resting |= bit;
     } else if (rest == REST_NONE || has_changed(rows, context, i, rest))
         *resting &= ~bit;
@@ -294,27 +292,14 @@ static void settle_row(struct resting_rows *rows, const struct step_context *con
 }
 
 _Static_assert(KINEMATICS_HOVER_ROWS == CHECKSUM_ROWS, "a block burns its fuel in one frame");
-_Static_assert(BEHAVIOUR_IDLE == 0 && MOTION_HOLD < 4 && MOTION_COURSE >= 4 &&
-                   MOTION_REMOTE > MOTION_ALONE && MOTION_CRUISE > MOTION_REMOTE &&
-                   MOTION_CRUISE < 0x80,
-               "may_rest() compares bytes");
-
-/* Returns false if none of eight rows rests or can begin to: all have an agent or a driver here,
- * and no behaviour is to stand or to attack. True is possible otherwise. first: a multiple of 8. */
-static bool may_rest(const struct resting_rows *rows, const struct entities *m, uint32_t first,
-                     const uint8_t *motion)
+/* Returns false if row i neither rests nor can begin to: it has an agent or a driver here, and its
+ * behaviour is not to stand or to attack. True is possible otherwise. */
+static bool may_rest(const struct resting_rows *rows, const struct entities *m, uint32_t i,
+                     enum motion motion)
 {
-    const uint64_t ones = UINT64_C(0x0101010101010101), tops = ones << 7;
-    uint64_t how, behaviour;
-    memcpy(&how, motion, sizeof how);
-    memcpy(&behaviour, m->behaviour + first, sizeof behaviour);
-    uint64_t no_agent = (how - 4 * ones) & ~how & tops; /* a byte is below 4 */
-    uint64_t idle = (behaviour - ones) & ~behaviour & tops;
-    uint64_t other = behaviour ^ BEHAVIOUR_ATTACK * ones;
-    uint64_t attack = (other - ones) & ~other & tops;
-    uint64_t remote = (how + (0x80 - MOTION_REMOTE) * ones) & tops;
-    return (no_agent | idle | attack | remote | (rows->resting[first / 64] >> first % 64 & 0xff)) !=
-           0;
+    bool thinks = motion == MOTION_COURSE || motion == MOTION_AGENT || motion == MOTION_ALONE;
+    return !thinks || m->row[i].behaviour == BEHAVIOUR_IDLE ||
+           m->row[i].behaviour == BEHAVIOUR_ATTACK || has_rest(rows, i);
 }
 
 static void settle(struct resting_rows *rows, const struct step_context *context, uint32_t i,
@@ -333,14 +318,10 @@ void resting_rows_settle(struct resting_rows *rows, const struct step_context *c
                          const struct row_block *block, const uint8_t *motion,
                          struct neighbour_index *neighbours, struct neighbour_lists *lists)
 {
-    uint32_t i = row_block_next(block, block->first);
-    while (i < block->end && !rows->never) {
-        uint32_t k = i - block->first;
-        if (k % 8 == 0 && i + 8 <= block->end && !may_rest(rows, context->m, i, motion + k)) {
-            i = row_block_next(block, i + 8);
-            continue;
-        }
-        settle(rows, context, i, (enum motion)motion[k], neighbours, lists);
-        i = row_block_next(block, i + 1);
+    for (uint32_t i = row_block_next(block, block->first); i < block->end && !rows->never;
+         i = row_block_next(block, i + 1)) {
+        enum motion how = (enum motion)motion[i - block->first];
+        if (may_rest(rows, context->m, i, how))
+            settle(rows, context, i, how, neighbours, lists);
     }
 }

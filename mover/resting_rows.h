@@ -26,6 +26,7 @@ struct resting_rows {
     uint64_t *cruising; /* and those that are moved when their stretch ends */
     uint64_t *fresh;    /* those whose stretch has begun in the last step: their entry in the index
                            of neighbours is not yet right */
+    uint32_t *end;      /* [capacity] when the stretch of a row that cruises ends */
     uint32_t *ends;     /* [capacity / 64] no stretch of these rows ends before this tick */
     struct hover_watch hovering;
     uint32_t craters; /* that have woken the rows near them */
@@ -39,9 +40,8 @@ void resting_rows_free(struct resting_rows *rows);
 /* Wakes all rows of a block. */
 void resting_rows_wake_block(struct resting_rows *rows, uint32_t block);
 
-/* Wakes the rows of a block in which the two tables differ. */
-void resting_rows_wake_differing(struct resting_rows *rows, struct table moved,
-                                 struct table committed, uint32_t block, uint32_t used);
+/* Wakes the rows of a block that these bits name, [ROW_BLOCK_WORDS]. */
+void resting_rows_wake(struct resting_rows *rows, uint32_t block, const uint64_t *bits);
 
 /* Wakes the rows near the craters that are new in the committed world. The index of neighbours is
  * that of this frame. */

@@ -24,11 +24,18 @@
 struct batches {
     const struct row_block *block;
     uint8_t *motion;                     /* [CHECKSUM_ROWS] how each row moves, or has moved */
-    bool harmed;                         /* a hard landing has harmed a row */
     struct ground_vehicle land, stretch; /* moved by one frame, and by a stretch */
     struct aircraft air, air_stretch;
     struct constant_course course;
 };
+
+/* Returns true if the row's gun moves, is off its place, or has a target. */
+static bool has_gun(const struct entities *m, uint32_t i)
+{
+    const struct entity *row = &m->row[i];
+    return row->turret != 0.0f || row->gun != 0.0f || row->traverse != 0.0f ||
+           row->elevate != 0.0f || row->target_id != 0;
+}
 
 /* After a vehicle has moved: its agent reacts to a blocked path, and its gun turns. */
 static void after_motion(const struct step_context *context, struct batches *batches, uint32_t i,
@@ -39,7 +46,7 @@ static void after_motion(const struct step_context *context, struct batches *bat
         goal_blocked(context, i);
         *motion = MOTION_AGENT;
     }
-    if (*motion == MOTION_COURSE && row_block_lacks(batches->block, GUN_COLUMNS))
+    if (*motion == MOTION_COURSE && !has_gun(context->m, i))
         return;
     struct turret_solution solution;
     turret_turn(context, i, &solution);
@@ -57,9 +64,7 @@ static void leaves_world(const struct step_context *context, struct batches *bat
 static void move_chassis(const struct step_context *context, struct batches *batches, uint32_t i,
                          const struct desired_motion *desired)
 {
-    double harm_j = context->m->harm_j[i];
     bool blocked = chassis_move(context, i, desired);
-    batches->harmed |= context->m->harm_j[i] != harm_j;
     batches->motion[i - batches->block->first] = MOTION_AGENT; /* more than its motion changes */
     after_motion(context, batches, i, blocked);
 }
@@ -76,7 +81,7 @@ static void move_land(const struct step_context *context, struct batches *batche
             move_chassis(context, batches, i, &desired);
             continue;
         }
-        if (context->m->flags[i] & ENTITY_FLAG_CHASSIS)
+        if (context->m->row[i].flags & ENTITY_FLAG_CHASSIS)
             batches->motion[i - batches->block->first] = MOTION_AGENT;
         after_motion(context, batches, i, land->blocked.lane[l] != 0);
     }
@@ -136,7 +141,6 @@ static void move_stretch(const struct step_context *context, struct batches *bat
 static void is_grounded(struct batches *batches, uint32_t i)
 {
     batches->motion[i - batches->block->first] = MOTION_AGENT;
-    batches->harmed = true;
 }
 
 /* Sets an aircraft down that has touched the ground gently. Returns true if that is an event. */
@@ -144,15 +148,16 @@ static bool touches_down(const struct step_context *context, struct batches *bat
 {
     const struct aircraft *air = &batches->air;
     uint32_t i = air->row[l];
-    const struct kind *kind = &context->world->kinds[context->m->kind[i]];
+    const struct kind *kind = &context->world->kinds[context->m->row[i].kind];
     const struct desired_motion desired = {.driven = air->driven.lane[l] != 0,
                                            .climb_mps = air->climb.lane[l],
                                            .altitude_m = air->altitude.lane[l]};
     double reach_m = maths_max(kind->bound_m, kind->radius_m);
-    if (context->m->y[i] - reach_m > air->ground.lane[l] || !landing_touch(context, i, &desired))
+    if (context->m->row[i].y - reach_m > air->ground.lane[l] ||
+        !landing_touch(context, i, &desired))
         return false;
     is_grounded(batches, i);
-    return context->m->trigger[i] == TRIGGER_AGROUND;
+    return context->m->row[i].trigger == TRIGGER_AGROUND;
 }
 
 static void move_air(const struct step_context *context, struct batches *batches)
@@ -220,13 +225,12 @@ static void move_air_stretch(const struct step_context *context, struct batches 
 static void move_course(const struct step_context *context, struct batches *batches)
 {
     struct constant_course *course = &batches->course;
-    const bool guns = !row_block_lacks(batches->block, GUN_COLUMNS);
     constant_course_set_down(context, course);
     for (int l = 0; l < course->count; l++) {
         uint32_t i = course->row[l];
-        if (context->m->flags[i] & ENTITY_FLAG_CHASSIS)
+        if (context->m->row[i].flags & ENTITY_FLAG_CHASSIS)
             batches->motion[i - batches->block->first] = MOTION_AGENT;
-        if (guns)
+        if (has_gun(context->m, i))
             turret_turn(context, i, &(struct turret_solution){0});
     }
     course->count = 0;
@@ -236,7 +240,7 @@ static void move_ship(const struct step_context *context, uint32_t i,
                       const struct desired_motion *desired, struct batches *batches)
 {
     struct ship_moved moved = ship_move(context, i, desired);
-    bool tells = context->m->trigger[i] == TRIGGER_AGROUND;
+    bool tells = context->m->row[i].trigger == TRIGGER_AGROUND;
     if (moved.touched)
         is_grounded(batches, i);
     after_motion(context, batches, i, moved.blocked);
@@ -256,7 +260,7 @@ static void move_landed(const struct step_context *context, uint32_t i,
 static void move_as_desired(const struct step_context *context, uint32_t i,
                             const struct desired_motion *desired, struct batches *batches)
 {
-    switch ((enum domain)context->world->kinds[context->m->kind[i]].domain) {
+    switch ((enum domain)context->world->kinds[context->m->row[i].kind].domain) {
     case DOMAIN_SEA:
         move_ship(context, i, desired, batches);
         break;
@@ -276,12 +280,11 @@ static void move_as_desired(const struct step_context *context, uint32_t i,
 }
 
 /* Returns true if a land vehicle with an agent moves as a body on its springs. */
-static bool is_sprung(const struct step_context *context, uint32_t i, const struct batches *batches)
+static bool is_sprung(const struct step_context *context, uint32_t i)
 {
     const struct entities *m = context->m;
-    bool spins = !row_block_lacks(batches->block, SPIN_COLUMNS) &&
-                 (m->spin_x[i] != 0.0 || m->spin_y[i] != 0.0 || m->spin_z[i] != 0.0);
-    return (spins || m->flags[i] & ENTITY_FLAG_CHASSIS) && chassis_takes(context, i, false);
+    bool spins = m->row[i].spin_x != 0.0 || m->row[i].spin_y != 0.0 || m->row[i].spin_z != 0.0;
+    return (spins || m->row[i].flags & ENTITY_FLAG_CHASSIS) && chassis_takes(context, i, false);
 }
 
 /* Moves a land vehicle by a stretch of so many frames with those that wait for the same. */
@@ -329,7 +332,7 @@ static void begin_stretch(const struct step_context *context, uint32_t i, uint32
 {
     struct desired_motion desired;
     agent_controls_motion(context, i, &desired);
-    if (context->world->kinds[context->m->kind[i]].domain == DOMAIN_AIR) {
+    if (context->world->kinds[context->m->row[i].kind].domain == DOMAIN_AIR) {
         begin_air_stretch(context, i, &desired, frames, batches);
     } else if (ship_stretch(context, i, &desired, frames)) {
         batches->motion[i - batches->block->first] = MOTION_CRUISE;
@@ -342,11 +345,11 @@ static void begin_stretch(const struct step_context *context, uint32_t i, uint32
 static void move_held(const struct step_context *context, uint32_t i, struct batches *batches)
 {
     struct desired_motion desired;
-    bool lands = context->world->kinds[context->m->kind[i]].domain == DOMAIN_LAND;
+    bool lands = context->world->kinds[context->m->row[i].kind].domain == DOMAIN_LAND;
     uint32_t frames = context->cruise_frames > 1 ? cruise_start_frames(context, i) : 0;
     if (!lands && frames > 0) {
         begin_stretch(context, i, frames, batches);
-    } else if (!lands || is_sprung(context, i, batches)) {
+    } else if (!lands || is_sprung(context, i)) {
         agent_controls_motion(context, i, &desired);
         move_as_desired(context, i, &desired, batches);
     } else if (frames > 0) {
@@ -362,15 +365,13 @@ static bool settle_first(const struct step_context *context, uint32_t i, struct 
 {
     const struct entities *m = context->m;
     double sine, cosine;
-    if (context->world->kinds[m->kind[i]].domain != DOMAIN_LAND ||
-        !(m->flags[i] & ENTITY_FLAG_CHASSIS) || !chassis_takes(context, i, false))
+    if (context->world->kinds[m->row[i].kind].domain != DOMAIN_LAND ||
+        !(m->row[i].flags & ENTITY_FLAG_CHASSIS) || !chassis_takes(context, i, false))
         return false;
-    maths_sincos(m->heading[i], &sine, &cosine);
-    const struct desired_motion desired = {.heading_rad = m->heading[i],
-                                           .speed_mps = m->vx[i] * sine - m->vz[i] * cosine};
-    double harm_j = m->harm_j[i];
+    maths_sincos(m->row[i].heading, &sine, &cosine);
+    const struct desired_motion desired = {
+        .heading_rad = m->row[i].heading, .speed_mps = m->row[i].vx * sine - m->row[i].vz * cosine};
     chassis_move(context, i, &desired);
-    batches->harmed |= m->harm_j[i] != harm_j;
     batches->motion[i - batches->block->first] = MOTION_AGENT;
     turret_turn(context, i, &(struct turret_solution){0});
     return true;
@@ -379,7 +380,7 @@ static bool settle_first(const struct step_context *context, uint32_t i, struct 
 /* Moves a row that holds its course. */
 static void move_on(const struct step_context *context, uint32_t i, struct batches *batches)
 {
-    if (context->world->kinds[context->m->kind[i]].domain == DOMAIN_AIR &&
+    if (context->world->kinds[context->m->row[i].kind].domain == DOMAIN_AIR &&
         landing_is_down(context, i)) {
         move_landed(context, i, NULL, batches);
         return;
@@ -449,13 +450,12 @@ static void move_rest(const struct step_context *context, struct batches *batche
         move_course(context, batches);
 }
 
-bool row_block_move(const struct step_context *context, const struct row_block *block,
+void row_block_move(const struct step_context *context, const struct row_block *block,
                     uint8_t motion[CHECKSUM_ROWS])
 {
     struct batches batches;
     batches.block = block;
     batches.motion = motion;
-    batches.harmed = false;
     think_schedule_run(context, block, motion);
     ground_vehicle_begin(&batches.land, 1);
     ground_vehicle_begin(&batches.stretch, context->cruise_frames);
@@ -466,5 +466,4 @@ bool row_block_move(const struct step_context *context, const struct row_block *
          i = row_block_next(block, i + 1))
         move_row(context, i, &batches);
     move_rest(context, &batches);
-    return batches.harmed;
 }

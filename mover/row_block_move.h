@@ -8,13 +8,11 @@
 #include "mover/agent/think_schedule.h"
 #include "mover/context/step_context.h"
 
-#include <stdbool.h>
 #include <stdint.h>
 
 /* Moves the rows of the block that are awake. motion: how each row has moved (enum motion), written
- * for all rows of the block. Returns true if harm_j of a row may have changed, by a hard landing.
- */
-bool row_block_move(const struct step_context *context, const struct row_block *block,
+ * for all rows of the block. */
+void row_block_move(const struct step_context *context, const struct row_block *block,
                     uint8_t motion[CHECKSUM_ROWS]);
 
 #endif

@@ -26,84 +26,38 @@
 struct rows {
     const struct step_context *context;
     struct mover *mover; /* its caches */
-    struct table committed, moved;
-    const struct state_head *head; /* of moved */
-    uint64_t *changed;             /* [CHECKSUM_BLOCKS] columns to hash again */
-    uint64_t *written;             /* struct moved */
-    bool known;                    /* is_own() */
+    const struct state *committed;
+    struct moved *moved;
+    bool known; /* is_own() */
 };
 
-/* Columns that only commands, shots, collisions and hard landings change. */
-#define STILL_COLUMNS                                                                              \
-    (COLUMN_BIT(harm_j) | COLUMN_BIT(bump_heading) | COLUMN_BIT(id) | COLUMN_BIT(owner_id) |       \
-     COLUMN_BIT(born_tick) | COLUMN_BIT(changed_tick) | COLUMN_BIT(kind) | COLUMN_BIT(state) |     \
-     COLUMN_BIT(force) | COLUMN_BIT(damage))
-
-/* Columns that motion changes, and those that laying a gun changes. */
-#define MOTION_COLUMNS                                                                             \
-    (COLUMN_BIT(x) | COLUMN_BIT(y) | COLUMN_BIT(z) | COLUMN_BIT(vx) | COLUMN_BIT(vy) |             \
-     COLUMN_BIT(vz) | COLUMN_BIT(heading) | COLUMN_BIT(pitch) | COLUMN_BIT(roll) |                 \
-     COLUMN_BIT(fuel_l) | COLUMN_BIT(cruise_rps) | COLUMN_BIT(cruise_mps2) |                       \
-     COLUMN_BIT(cruise_tick))
-#define LAID_COLUMNS (GUN_COLUMNS | COLUMN_BIT(trigger))
-
-/* Returns the columns of the block that were zero in every row and still are. Only rows that did
- * more than move can have written to them. */
-static uint64_t still_blank(const struct rows *rows, const struct row_block *block,
-                            const uint8_t motion[CHECKSUM_ROWS])
+/* Notes which of the rows that were moved ask for something, and adds to the hash of their block by
+ * how much they change it, while they are in the processor's cache. */
+static void note_moved(const struct rows *rows, const struct row_block *block)
 {
-    uint64_t columns = block->blank & ~STILL_COLUMNS & ~MOTION_COLUMNS;
-    uint32_t row[CHECKSUM_ROWS], count = 0;
-    /* Of the rows that only move no row begins to spin in a step. A row that spins may change its
-     * axis. */
-    if (!row_block_lacks(block, SPIN_COLUMNS))
-        columns &= ~SPIN_COLUMNS;
-    if (!row_block_lacks(block, GUN_COLUMNS))
-        columns &= ~LAID_COLUMNS;
-    for (uint32_t i = block->first; i < block->end; i++) {
-        enum motion how = (enum motion)motion[i - block->first];
-        if (how != MOTION_NONE && how != MOTION_HOLD && how != MOTION_COURSE)
-            row[count++] = i;
+    const struct entities *m = rows->context->m, *w = &rows->committed->entities;
+    uint64_t *asks = rows->mover->asks + block->first / 64, change = 0;
+    memset(asks, 0, ROW_BLOCK_BYTES);
+    for (uint32_t i = row_block_next(block, block->first); i < block->end;
+         i = row_block_next(block, i + 1)) {
+        asks[(i - block->first) / 64] |= (uint64_t)(m->row[i].trigger != 0) << i % 64;
+        rows->mover->change[i] = entity_hash_change(m, w, i);
+        change += rows->mover->change[i];
     }
-    return table_zero(rows->moved, columns, row, count);
+    rows->moved->hashes[block->first / CHECKSUM_ROWS] += change;
 }
 
-/* Notes that the rows of the block that are awake are written, and lists all that are. Returns
- * false if they are many, or if the committed table may not be that from which the moved one was
- * made. */
-static bool list_written(const struct rows *rows, const struct row_block *block,
-                         struct row_list *list)
-{
-    uint64_t *written = rows->written + block->first / 64;
-    for (uint32_t w = 0; w < ROW_BLOCK_WORDS; w++)
-        written[w] |= block->awake[w];
-    return rows->known &&
-           row_list_gather(list, block->first / CHECKSUM_ROWS, rows->head->used, written);
-}
-
-/* Moves the rows of the block that are awake, finds out which rest from now on, and hashes the
- * block while it is in the processor's cache. */
+/* Moves the rows of the block that are awake, and finds out which rest from now on. */
 static void move_awake(const struct rows *rows, struct row_block *block)
 {
     const struct step_context *context = rows->context;
-    uint32_t number = block->first / CHECKSUM_ROWS;
-    uint64_t *changed = &rows->changed[number];
+    uint64_t *written = rows->moved->written + block->first / 64;
     uint8_t motion[CHECKSUM_ROWS];
-    struct row_list list;
-    block->changed = *changed;
-    block->blank = ~*changed & table_blank(rows->committed, number);
-    bool harmed = row_block_move(context, block, motion);
+    row_block_move(context, block, motion);
     resting_rows_settle(&rows->mover->resting, context, block, motion, &rows->mover->neighbours,
                         &rows->mover->neighbour_lists);
-    if (list_written(rows, block, &list))
-        table_hash_rows(rows->moved, rows->committed, number, COLUMNS_ALL, &list);
-    else {
-        *changed |= COLUMNS_ALL & ~STILL_COLUMNS & ~still_blank(rows, block, motion);
-        if (harmed)
-            *changed |= COLUMN_BIT(harm_j);
-        table_hash_block(rows->moved, number, rows->head->used, *changed);
-    }
-    *changed = 0;
+    note_moved(rows, block);
+    memcpy(written, block->awake, sizeof block->awake);
 }
 
 /* Moves the committed rows; a row that a command has spawned moves from the next frame on. A block
@@ -116,43 +70,43 @@ static void move_rows(void *context, uint32_t first, uint32_t end, uint32_t work
         struct row_block block = {.first = first,
                                   .end = end - first < CHECKSUM_ROWS ? end : first + CHECKSUM_ROWS};
         uint32_t awake = resting_rows_awake(&rows->mover->resting, rows->context, &block);
-        if (awake == 0)
+        if (awake == 0) {
+            memset(rows->mover->asks + first / 64, 0, ROW_BLOCK_BYTES);
             continue;
+        }
         atomic_fetch_add_explicit(&rows->mover->moved_rows, awake, memory_order_relaxed);
         move_awake(rows, &block);
     }
 }
 
 /* Copies the committed rows, notes that none is written yet, and wakes those that differ from what
- * this process left. The hashes of a table whose content is unknown must all be computed. */
+ * this process left: they are the ones that the collider wrote. */
 static void take_blocks(void *context, uint32_t first, uint32_t end, uint32_t worker)
 {
     const struct rows *rows = context;
+    const struct table committed = state_table(rows->committed), moved = moved_table(rows->moved);
     struct resting_rows *resting = &rows->mover->resting;
-    uint32_t used = rows->context->committed->head->used;
     (void)worker;
     for (uint32_t block = first; block < end; block++) {
-        if (rows->known)
-            resting_rows_wake_differing(resting, rows->moved, rows->committed, block, used);
-        else
+        const uint64_t *written = rows->committed->written + block * ROW_BLOCK_WORDS;
+        if (rows->known) {
+            resting_rows_wake(resting, block, written);
+            table_take_rows(moved, committed, block, written);
+        } else {
             resting_rows_wake_block(resting, block);
-        table_take(rows->moved, rows->committed, block, used, rows->known);
-        memset(rows->written + block * ROW_BLOCK_WORDS, 0, ROW_BLOCK_BYTES);
-        rows->changed[block] = rows->known ? 0 : COLUMNS_ALL;
+            table_take(moved, committed, block, rows->committed->head->used, false);
+        }
+        memset(rows->moved->written + block * ROW_BLOCK_WORDS, 0, ROW_BLOCK_BYTES);
     }
 }
 
-/* A block whose column of triggers has the hash of zeros is passed over, unless the serial part has
- * written to it. */
+/* Does what rows ask for, in their order. */
 static void pull_triggers(struct serial_context *context, const struct rows *rows)
 {
     uint32_t used = context->step->committed->head->used;
-    for (uint32_t first = 0; first < used; first += CHECKSUM_ROWS) {
-        uint32_t block = first / CHECKSUM_ROWS;
-        bool blank = rows->moved.hashes[block].column[COLUMN_trigger] == COLUMN_HASH_BLANK;
-        if (!blank || rows->changed[block] & COLUMN_BIT(trigger))
-            triggers_pull(context, first,
-                          used - first < CHECKSUM_ROWS ? used : first + CHECKSUM_ROWS);
+    for (uint32_t w = 0; w * 64 < used; w++) {
+        for (uint64_t left = rows->mover->asks[w]; left != 0; left &= left - 1)
+            triggers_pull(context, w * 64 + (uint32_t)__builtin_ctzll(left));
     }
 }
 
@@ -175,15 +129,32 @@ static bool is_own(const struct mover *mover, const struct state *committed,
            moved->head->used == committed->head->used;
 }
 
-/* Hashes the columns that the serial part changed, and returns the checksum of the table. */
-static uint64_t checksum(const struct rows *rows, const struct moved *moved)
+/* Adds to the hashes by how much the rows change them that the serial part wrote, instead of how
+ * much these had changed them when they were moved. */
+static void note_serial(const struct rows *rows)
 {
-    struct mover *mover = rows->mover;
-    const struct written written = {mover->changed, moved->written};
+    const struct mover *mover = rows->mover;
+    const struct moved *moved = rows->moved;
+    for (uint32_t w = 0; w < block_count(moved->entities.capacity) * ROW_BLOCK_WORDS; w++) {
+        for (uint64_t left = mover->serial[w]; left != 0; left &= left - 1) {
+            uint32_t row = w * 64 + (uint32_t)__builtin_ctzll(left);
+            uint64_t before = moved->written[w] & left & -left ? mover->change[row] : 0;
+            moved->hashes[row / CHECKSUM_ROWS] +=
+                entity_hash_change(&moved->entities, &rows->committed->entities, row) - before;
+        }
+        moved->written[w] |= mover->serial[w];
+        mover->serial[w] = 0;
+    }
+}
+
+/* Hashes what is not hashed yet, and returns the checksum of the table. */
+static uint64_t checksum(const struct rows *rows)
+{
+    const struct moved *moved = rows->moved;
     uint32_t used = moved->head->used;
-    uint32_t known = rows->known ? block_count(rows->context->committed->head->used) : 0;
-    table_hash_written(rows->moved, rows->committed, used, known, &written, mover->workers);
-    memset(mover->changed, 0, sizeof mover->changed);
+    uint32_t known = rows->known ? block_count(rows->committed->head->used) : 0;
+    note_serial(rows);
+    table_hash(moved_table(moved), known, used, rows->mover->workers);
     return moved_checksum_of(moved, rows_hash(moved->hashes, used));
 }
 
@@ -248,16 +219,9 @@ void mover_step(struct mover *mover, const struct state *committed, struct moved
     struct serial_context serial_context = {
         .step = &context,
         .moved = moved,
-        .writer = {&moved->entities, mover->changed, mover->resting.resting, moved->written},
+        .writer = {&moved->entities, mover->resting.resting, mover->serial},
         .remotes = &mover->remotes};
-    struct rows rows = {.context = &context,
-                        .mover = mover,
-                        .committed = state_table(committed),
-                        .moved = moved_table(moved),
-                        .head = head,
-                        .changed = mover->changed,
-                        .written = moved->written,
-                        .known = is_own(mover, committed, moved)};
+    struct rows rows = {&context, mover, committed, moved, is_own(mover, committed, moved)};
     uint32_t used = committed->head->used;
     mover->moved_rows = 0;
     crater_index_update(&mover->craters, committed->head->crater_count);
@@ -285,5 +249,5 @@ void mover_step(struct mover *mover, const struct state *committed, struct moved
         mission_step(&serial_context);
         spawn_fall_back(&serial_context);
     }
-    mover->left = head->checksum = checksum(&rows, moved);
+    mover->left = head->checksum = checksum(&rows);
 }

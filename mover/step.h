@@ -41,9 +41,12 @@ struct mover {
     /* Of the moved table, while records of other simulators are applied. */
     struct remote_index remotes;
     /* The moved table. */
-    uint64_t changed[CHECKSUM_BLOCKS]; /* columns of each block that must be hashed again */
-    uint64_t left;                     /* checksum that the last step left; 0: none */
-    _Atomic uint32_t moved_rows;       /* rows that the last step has moved */
+    uint64_t *asks;   /* a bit for each row that has a trigger (mover/triggers.h) */
+    uint64_t *serial; /* a bit for each row that the serial part of the step has written */
+    uint64_t
+        *change;   /* [capacity] by how much a row that was moved changes the hash of its block */
+    uint64_t left; /* checksum that the last step left; 0: none */
+    _Atomic uint32_t moved_rows; /* rows that the last step has moved */
     uint32_t
         decides_every; /* [frame] tests let agents decide no more often, as in a large world; 0 */
 };

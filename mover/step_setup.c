@@ -30,7 +30,11 @@ int mover_init(struct mover *mover, const struct world *world, const struct crat
     mover->terrain_entries_ahead =
         calloc(world->params->capacity, sizeof *mover->terrain_entries_ahead);
     mover->firing_tables = make_firing_tables(world);
-    if (mover->terrain_entries && mover->terrain_entries_ahead && mover->firing_tables &&
+    mover->asks = calloc(1, written_bytes(world->params->capacity));
+    mover->serial = calloc(1, written_bytes(world->params->capacity));
+    mover->change = calloc(world->params->capacity, sizeof *mover->change);
+    if (mover->asks && mover->serial && mover->change && mover->terrain_entries &&
+        mover->terrain_entries_ahead && mover->firing_tables &&
         avoidance_init(&mover->avoidance, world) == 0 &&
         ground_marks_init(&mover->ground_marks, world) == 0 &&
         square_bounds_init(&mover->slopes, &world->terrain.squares, square_bounds_slope,
@@ -59,6 +63,9 @@ void mover_free(struct mover *mover)
     line_of_sight_free(&mover->line_of_sight);
     ground_marks_free(&mover->ground_marks);
     square_bounds_free(&mover->slopes);
+    free(mover->asks);
+    free(mover->serial);
+    free(mover->change);
     free(mover->firing_tables);
     free(mover->terrain_entries);
     free(mover->terrain_entries_ahead);

@@ -1,4 +1,4 @@
-/* What a row asks for while it moves, in its column `trigger` (TRIGGER_* of
+/* What a row asks for while it moves, in its field `trigger` (TRIGGER_* of
  * mover/context/step_context.h), and what changes other rows or is an event: shots, wrecks that
  * break up, what touches the ground or leaves the world, changes of behaviour. */
 #ifndef JOLON_MOVER_TRIGGERS_H
@@ -8,8 +8,8 @@
 
 #include <stdint.h>
 
-/* Does what the rows from first to end - 1 ask for, in their order, and clears their triggers. On
- * the thread of the step, after all rows have moved. */
-void triggers_pull(struct serial_context *context, uint32_t first, uint32_t end);
+/* Does what row i asks for, if anything, and clears its trigger. On the thread of the step, after
+ * all rows have moved. */
+void triggers_pull(struct serial_context *context, uint32_t i);
 
 #endif

@@ -6,7 +6,7 @@
 
 #include "status.h"
 
-/* Returns a row of the snapshot as its columns say. Pure; any thread. */
+/* Returns a row of the snapshot as its fields say. Pure; any thread. */
 jolon_Entity entity_sample_of(const struct world *world, const struct snapshot *snapshot,
                               uint32_t row);
 

@@ -51,7 +51,7 @@ static uint32_t count_entities(const struct snapshot *snapshot)
 {
     uint32_t count = 0;
     for (uint32_t row = 0; row < snapshot->head.used; row++)
-        count += snapshot->entities.state[row] != ENTITY_FREE;
+        count += snapshot->entities.row[row].state != ENTITY_FREE;
     return count;
 }
 
@@ -76,10 +76,10 @@ static void write_part(struct entity_topic *topic, const struct world *world)
     const struct snapshot *snapshot = &topic->snapshot;
     uint32_t count = 0;
     for (; topic->row < snapshot->head.used && count < topic->room; topic->row++) {
-        if (snapshot->entities.state[topic->row] == ENTITY_FREE)
+        if (snapshot->entities.row[topic->row].state == ENTITY_FREE)
             continue;
         const struct entities *e = &snapshot->entities;
-        projection_place(&topic->projection, e->x[topic->row], e->z[topic->row],
+        projection_place(&topic->projection, e->row[topic->row].x, e->row[topic->row].z,
                          &topic->place[count].latitude_deg, &topic->place[count].longitude_deg);
         topic->entity[count++] = entity_sample_of(world, snapshot, topic->row);
     }

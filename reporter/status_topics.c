@@ -143,8 +143,8 @@ static uint64_t hash_markings(const struct snapshot *snapshot)
         struct {
             uint32_t id;
             char marking[REMOTE_MARKING_MAX + 4];
-        } of = {.id = e->id[row]};
-        if (e->state[row] == ENTITY_FREE || !remote_is(e, row))
+        } of = {.id = e->row[row].id};
+        if (e->row[row].state == ENTITY_FREE || !remote_is(e, row))
             continue;
         remote_marking(e, row, of.marking);
         hash = XXH3_64bits_withSeed(&of, sizeof of, hash);

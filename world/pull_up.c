@@ -17,13 +17,14 @@
 
 bool pull_up_of(const struct world *world, const struct entities *entities, uint32_t i)
 {
-    const struct kind *kind = &world->kinds[entities->kind[i]];
-    if (entities->behaviour[i] != BEHAVIOUR_DRIVEN || entities->state[i] != ENTITY_ACTIVE ||
+    const struct kind *kind = &world->kinds[entities->row[i].kind];
+    if (entities->row[i].behaviour != BEHAVIOUR_DRIVEN || entities->row[i].state != ENTITY_ACTIVE ||
         kind->domain != DOMAIN_AIR || grounded_of(entities, kind, i))
         return false;
-    double speed = sqrt(entities->vx[i] * entities->vx[i] + entities->vz[i] * entities->vz[i]);
-    double fast = maths_max(speed, SLOWEST_MPS), up = entities->vy[i], sine, cosine;
-    double roll = maths_clamp(entities->roll[i], -STEEPEST_RAD, STEEPEST_RAD);
+    double speed =
+        sqrt(entities->row[i].vx * entities->row[i].vx + entities->row[i].vz * entities->row[i].vz);
+    double fast = maths_max(speed, SLOWEST_MPS), up = entities->row[i].vy, sine, cosine;
+    double roll = maths_clamp(entities->row[i].roll, -STEEPEST_RAD, STEEPEST_RAD);
     maths_sincos(roll, &sine, &cosine);
     double slope = sine / cosine;
     const struct climb_ahead ahead = {
@@ -35,8 +36,8 @@ bool pull_up_of(const struct world *world, const struct entities *entities, uint
         .pull_mps2 = climb_limits_pull(kind, speed),
         .brake_mps2 = climb_limits_brake(kind),
         .late_s = REACT_S,
-        .heading_rad = speed > SLOWEST_MPS ? maths_heading(entities->vx[i], entities->vz[i])
-                                           : entities->heading[i],
+        .heading_rad = speed > SLOWEST_MPS ? maths_heading(entities->row[i].vx, entities->row[i].vz)
+                                           : entities->row[i].heading,
         .off_rad = fabs(slope) < TURN_SLOPE ? 0.0
                    : roll > 0.0             ? PI
                                             : -PI,

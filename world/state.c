@@ -15,15 +15,6 @@ double state_time_s(const struct world *world, const struct state_head *head)
     return (double)head->tick * world->params->dt_s;
 }
 
-/* Rows are hashed column by column; a column's hash is chained into the whole. */
-static uint64_t hash_columns(uint64_t hash, const struct entities *e, uint32_t used)
-{
-#define X(type, name) hash = XXH3_64bits_withSeed(e->name, used * sizeof(type), hash);
-    ENTITY_COLUMNS(X)
-#undef X
-    return hash;
-}
-
 uint64_t state_digest(const struct world *world, const struct state *state)
 {
     struct state_head head = *state->head;
@@ -40,7 +31,8 @@ uint64_t state_digest(const struct world *world, const struct state *state)
     if (inputs > 0)
         hash = XXH3_64bits_withSeed(&inputs, sizeof inputs, hash);
     hash = XXH3_64bits_withSeed(&world->params->seed, sizeof world->params->seed, hash);
-    hash = hash_columns(hash, &state->entities, state->head->used);
+    hash = XXH3_64bits_withSeed(state->entities.row,
+                                state->head->used * sizeof *state->entities.row, hash);
     hash = XXH3_64bits_withSeed(state->fixed_damage, world->counts.fixed, hash);
     hash = XXH3_64bits_withSeed(
         state->contacts, state->head->contact_count * sizeof(struct persistent_contact), hash);

@@ -15,7 +15,6 @@
 struct crater;
 struct dent;
 struct event;
-struct block_hashes;
 struct persistent_contact;
 struct world;
 
@@ -72,8 +71,11 @@ static inline size_t state_head_bytes(const struct state_head *head)
 struct state {
     struct state_head *head;
     struct entities entities;
-    struct block_hashes *hashes; /* of the rows (checksum.h); a reader's copy has none: NULL */
-    uint8_t *fixed_damage;       /* [counts.fixed] as in world/terrain/fallen.h */
+    uint64_t *hashes; /* of the blocks of rows (checksum.h); a reader's copy has none: NULL */
+    /* A bit for each row, of whole blocks; in no checksum. A row without it is as in the moved
+     * table from which the collider made the frame, to the bit. A reader's copy has none: NULL. */
+    uint64_t *written;
+    uint8_t *fixed_damage; /* [counts.fixed] as in world/terrain/fallen.h */
     struct persistent_contact
         *contacts;          /* [contact_count] sorted by ids; written by the collider */
     struct crater *craters; /* shared by both buffers, append-only: committed by crater_count */
@@ -84,7 +86,7 @@ struct state {
 struct moved {
     struct state_head *head;
     struct entities entities;
-    struct block_hashes *hashes; /* as in struct state */
+    uint64_t *hashes;      /* as in struct state */
     struct event *intents; /* [params.intents_per_frame]; sequence, frame, index not yet set */
     /* A bit for each row, of whole blocks; in no checksum. A row without it is as in the committed
      * frame from which the mover made the table, to the bit. */

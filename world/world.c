@@ -21,7 +21,7 @@ const char *world_row_name(const struct world *world, const struct entities *e, 
                            char *marking)
 {
     if (!remote_is(e, row))
-        return world_entity_name(world, e->id[row]);
+        return world_entity_name(world, e->row[row].id);
     remote_marking(e, row, marking);
     return marking;
 }

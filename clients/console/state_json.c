@@ -103,7 +103,7 @@ static bool is_within(const struct area_asked *area, double x, double z)
 
 static bool within(const struct area_asked *area, const struct entities *e, uint32_t row)
 {
-    return e->state[row] != ENTITY_FREE && is_within(area, e->x[row], e->z[row]);
+    return e->row[row].state != ENTITY_FREE && is_within(area, e->row[row].x, e->row[row].z);
 }
 
 /* What is written of a row: where and how fast it is. */
@@ -117,24 +117,24 @@ static void begin_entity(struct json_writer *json, const struct world_query *que
 {
     const struct entities *e = &query->reader->snapshot.entities;
     json_writer_begin(json, '[');
-    json_writer_whole(json, e->id[row]);
-    json_writer_whole(json, e->kind[row]);
-    json_writer_whole(json, e->force[row]);
-    json_writer_whole(json, e->behaviour[row]);
-    json_writer_whole(json, e->state[row]);
-    json_writer_whole(json, e->damage[row]);
+    json_writer_whole(json, e->row[row].id);
+    json_writer_whole(json, e->row[row].kind);
+    json_writer_whole(json, e->row[row].force);
+    json_writer_whole(json, e->row[row].behaviour);
+    json_writer_whole(json, e->row[row].state);
+    json_writer_whole(json, e->row[row].damage);
     json_writer_number(json, place->x, 1);
     json_writer_number(json, place->z, 1);
     json_writer_number(json, place->heading_rad, 3);
     json_writer_number(json, place->speed_mps, 1);
-    json_writer_number(json, (double)e->turret[row], 3);
+    json_writer_number(json, (double)e->row[row].turret, 3);
     json_writer_whole(json, world_query_driver(query, row));
 }
 
 static void put_entity(struct json_writer *json, const struct world_query *query, uint32_t row)
 {
     const struct entities *e = &query->reader->snapshot.entities;
-    const struct place place = {e->x[row], e->z[row], e->heading[row],
+    const struct place place = {e->row[row].x, e->row[row].z, e->row[row].heading,
                                 vec3_length(entities_velocity(e, row))};
     begin_entity(json, query, row, &place);
     json_writer_end(json, ']');
@@ -217,7 +217,7 @@ static void put_entities(struct json_writer *json, const struct world_query *que
     json_writer_key(json, "entities");
     json_writer_begin(json, '[');
     for (uint32_t row = 0; row < snapshot->head.used && shown < area->most; row++) {
-        if (!within(area, e, row) || e->id[row] % stride != 0)
+        if (!within(area, e, row) || e->row[row].id % stride != 0)
             continue;
         shown++;
         if (!area->motions)
@@ -283,7 +283,7 @@ static void put_markings(struct json_writer *json, const struct world_query *que
         char marking[REMOTE_MARKING_MAX + 1], id[16];
         if (!within(area, e, row) || !remote_is(e, row))
             continue;
-        (void)snprintf(id, sizeof id, "%u", e->id[row]);
+        (void)snprintf(id, sizeof id, "%u", e->row[row].id);
         remote_marking(e, row, marking);
         json_writer_key_word(json, id, marking);
         put++;
@@ -295,19 +295,19 @@ static void put_where(struct json_writer *json, const struct world_query *query,
 {
     const struct entities *e = &query->reader->snapshot.entities;
     const struct world *world = &query->reader->view.world;
-    json_writer_key_number(json, "x", e->x[row], 2);
-    json_writer_key_number(json, "y", e->y[row], 2);
-    json_writer_key_number(json, "z", e->z[row], 2);
-    world_json_earth(json, world, e->x[row], e->z[row]);
+    json_writer_key_number(json, "x", e->row[row].x, 2);
+    json_writer_key_number(json, "y", e->row[row].y, 2);
+    json_writer_key_number(json, "z", e->row[row].z, 2);
+    world_json_earth(json, world, e->row[row].x, e->row[row].z);
     json_writer_key_number(json, "speed_mps", vec3_length(entities_velocity(e, row)), 2);
-    json_writer_key_number(json, "heading_deg", e->heading[row] / RAD_PER_DEG, 1);
-    json_writer_key_number(json, "pitch_deg", e->pitch[row] / RAD_PER_DEG, 1);
-    json_writer_key_number(json, "roll_deg", e->roll[row] / RAD_PER_DEG, 1);
-    json_writer_key_number(json, "altitude_m",
-                           e->y[row] - terrain_base_height(&world->terrain, e->x[row], e->z[row]),
-                           1);
-    json_writer_key_number(json, "turret_deg", (double)e->turret[row] / RAD_PER_DEG, 1);
-    json_writer_key_number(json, "gun_deg", (double)e->gun[row] / RAD_PER_DEG, 1);
+    json_writer_key_number(json, "heading_deg", e->row[row].heading / RAD_PER_DEG, 1);
+    json_writer_key_number(json, "pitch_deg", e->row[row].pitch / RAD_PER_DEG, 1);
+    json_writer_key_number(json, "roll_deg", e->row[row].roll / RAD_PER_DEG, 1);
+    json_writer_key_number(
+        json, "altitude_m",
+        e->row[row].y - terrain_base_height(&world->terrain, e->row[row].x, e->row[row].z), 1);
+    json_writer_key_number(json, "turret_deg", (double)e->row[row].turret / RAD_PER_DEG, 1);
+    json_writer_key_number(json, "gun_deg", (double)e->row[row].gun / RAD_PER_DEG, 1);
 }
 
 static void put_me(struct json_writer *json, const struct world_query *query, uint32_t row)
@@ -316,33 +316,34 @@ static void put_me(struct json_writer *json, const struct world_query *query, ui
     const struct world_reader *reader = query->reader;
     const struct entities *e = &reader->snapshot.entities;
     const struct world *world = &reader->view.world;
-    const struct kind *kind = &world->kinds[e->kind[row]];
+    const struct kind *kind = &world->kinds[e->row[row].kind];
     char marking[REMOTE_MARKING_MAX + 1];
     double reload_s =
-        ((double)e->reload_tick[row] - (double)reader->snapshot.head.tick) * world_dt_s(world);
+        ((double)e->row[row].reload_tick - (double)reader->snapshot.head.tick) * world_dt_s(world);
     json_writer_key(json, "me");
     json_writer_begin(json, '{');
-    json_writer_key_whole(json, "id", e->id[row]);
+    json_writer_key_whole(json, "id", e->row[row].id);
     json_writer_key_word(json, "name", world_row_name(world, e, row, marking));
     json_writer_key_word(json, "kind", kind->name);
-    json_writer_key_word(json, "force", force_name((enum force)e->force[row]));
-    json_writer_key_word(json, "behaviour", behaviour_name((enum behaviour)e->behaviour[row]));
-    json_writer_key_word(json, "state", entity_state_name((enum entity_state)e->state[row]));
-    json_writer_key_word(json, "damage", damage_name((enum damage)e->damage[row]));
+    json_writer_key_word(json, "force", force_name((enum force)e->row[row].force));
+    json_writer_key_word(json, "behaviour", behaviour_name((enum behaviour)e->row[row].behaviour));
+    json_writer_key_word(json, "state", entity_state_name((enum entity_state)e->row[row].state));
+    json_writer_key_word(json, "damage", damage_name((enum damage)e->row[row].damage));
     put_where(json, query, row);
-    json_writer_key_whole(json, "rounds", e->rounds[row]);
+    json_writer_key_whole(json, "rounds", e->row[row].rounds);
     json_writer_key_whole(json, "rounds_full", kind->rounds);
-    json_writer_key_number(json, "fuel_l", e->fuel_l[row], 1);
+    json_writer_key_number(json, "fuel_l", e->row[row].fuel_l, 1);
     json_writer_key_number(json, "fuel_full_l", kind->fuel_l, 1);
     json_writer_key_number(json, "reload_s", fmax(reload_s, 0.0), 2);
-    json_writer_key_word(json, "gear", gear_name(entity_gear(e->flags[row])));
-    json_writer_key_number(json, "throttle", (double)e->throttle[row], 2);
+    json_writer_key_word(json, "gear", gear_name(entity_gear(e->row[row].flags)));
+    json_writer_key_number(json, "throttle", (double)e->row[row].throttle, 2);
     json_writer_key_number(json, "spool", spool_of(e, kind, row), 2);
     json_writer_key_bool(json, "grounded", grounded_of(e, kind, row));
     json_writer_key_bool(json, "pull_up", pull_up_of(world, e, row));
-    json_writer_key_whole(
-        json, "target",
-        entities_alive(e, e->target_slot[row], e->target_id[row]) ? e->target_id[row] : 0);
+    json_writer_key_whole(json, "target",
+                          entities_alive(e, e->row[row].target_slot, e->row[row].target_id)
+                              ? e->row[row].target_id
+                              : 0);
     json_writer_key_word(json, "driver", drivers[world_query_driver(query, row)]);
     json_writer_end(json, '}');
 }

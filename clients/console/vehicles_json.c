@@ -117,16 +117,16 @@ static bool matches(const struct world_query *query, const struct list_query *li
     const struct entities *e = &query->reader->snapshot.entities;
     const struct world *world = &query->reader->view.world;
     char id[16], marking[REMOTE_MARKING_MAX + 1];
-    uint32_t kind = e->kind[row];
-    if (e->state[row] == ENTITY_FREE || kind >= world->counts.kinds ||
+    uint32_t kind = e->row[row].kind;
+    if (e->row[row].state == ENTITY_FREE || kind >= world->counts.kinds ||
         world->kinds[kind].domain == DOMAIN_MUNITION ||
-        (list->force < FORCE_COUNT && e->force[row] != list->force) ||
+        (list->force < FORCE_COUNT && e->row[row].force != list->force) ||
         (list->kind != KIND_NONE && kind != list->kind))
         return false;
     if (list->kind_found[kind] ||
         strcasestr(world_row_name(world, e, row, marking), list->search) != NULL)
         return true;
-    (void)snprintf(id, sizeof id, "%u", e->id[row]);
+    (void)snprintf(id, sizeof id, "%u", e->row[row].id);
     return strncmp(id, list->search, strlen(list->search)) == 0;
 }
 
@@ -137,7 +137,7 @@ static struct entry entry_of(const struct world_query *query, const struct list_
 {
     const struct entities *e = &query->reader->snapshot.entities;
     const struct world *world = &query->reader->view.world;
-    struct entry entry = {.word = "", .row = row, .id = e->id[row]};
+    struct entry entry = {.word = "", .row = row, .id = e->row[row].id};
     switch (list->sort) {
     case SORT_NAME:
         entry.word = world_entity_name(world, entry.id);
@@ -147,22 +147,22 @@ static struct entry entry_of(const struct world_query *query, const struct list_
             entry.key = list->descending ? -1.0 : 1.0;
         break;
     case SORT_KIND:
-        entry.word = world->kinds[e->kind[row]].name;
+        entry.word = world->kinds[e->row[row].kind].name;
         break;
     case SORT_BEHAVIOUR:
-        entry.word = behaviour_name((enum behaviour)e->behaviour[row]);
+        entry.word = behaviour_name((enum behaviour)e->row[row].behaviour);
         break;
     case SORT_SPEED:
         entry.key = vec3_length(entities_velocity(e, row));
         break;
     case SORT_DAMAGE:
-        entry.key = e->damage[row];
+        entry.key = e->row[row].damage;
         break;
     case SORT_ROUNDS:
-        entry.key = e->rounds[row];
+        entry.key = e->row[row].rounds;
         break;
     case SORT_FUEL:
-        entry.key = e->fuel_l[row];
+        entry.key = e->row[row].fuel_l;
         break;
     case SORT_ID:
     case SORT_COUNT:
@@ -240,21 +240,21 @@ static void put_row(struct json_writer *json, const struct world_query *query, u
 {
     const struct entities *e = &query->reader->snapshot.entities;
     const struct world *world = &query->reader->view.world;
-    const struct player *player = players_driver_of(query->players, e->id[row]);
+    const struct player *player = players_driver_of(query->players, e->row[row].id);
     json_writer_begin(json, '{');
-    json_writer_key_whole(json, "id", e->id[row]);
+    json_writer_key_whole(json, "id", e->row[row].id);
     char marking[REMOTE_MARKING_MAX + 1];
     json_writer_key_word(json, "name", world_row_name(world, e, row, marking));
-    json_writer_key_word(json, "kind", world->kinds[e->kind[row]].name);
-    json_writer_key_word(json, "force", force_name((enum force)e->force[row]));
-    json_writer_key_word(json, "behaviour", behaviour_name((enum behaviour)e->behaviour[row]));
-    json_writer_key_word(json, "state", entity_state_name((enum entity_state)e->state[row]));
-    json_writer_key_word(json, "damage", damage_name((enum damage)e->damage[row]));
-    json_writer_key_number(json, "x", e->x[row], 1);
-    json_writer_key_number(json, "z", e->z[row], 1);
+    json_writer_key_word(json, "kind", world->kinds[e->row[row].kind].name);
+    json_writer_key_word(json, "force", force_name((enum force)e->row[row].force));
+    json_writer_key_word(json, "behaviour", behaviour_name((enum behaviour)e->row[row].behaviour));
+    json_writer_key_word(json, "state", entity_state_name((enum entity_state)e->row[row].state));
+    json_writer_key_word(json, "damage", damage_name((enum damage)e->row[row].damage));
+    json_writer_key_number(json, "x", e->row[row].x, 1);
+    json_writer_key_number(json, "z", e->row[row].z, 1);
     json_writer_key_number(json, "speed_mps", vec3_length(entities_velocity(e, row)), 1);
-    json_writer_key_whole(json, "rounds", e->rounds[row]);
-    json_writer_key_number(json, "fuel_l", e->fuel_l[row], 1);
+    json_writer_key_whole(json, "rounds", e->row[row].rounds);
+    json_writer_key_number(json, "fuel_l", e->row[row].fuel_l, 1);
     json_writer_key_whole(json, "driven", world_query_driver(query, row));
     json_writer_key_word(json, "player", player ? player->name : "");
     json_writer_end(json, '}');

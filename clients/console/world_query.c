@@ -38,7 +38,7 @@ bool world_query_told(const struct world_query *query, struct http_answer *answe
 uint32_t world_query_driver(const struct world_query *query, uint32_t row)
 {
     const struct entities *e = &query->reader->snapshot.entities;
-    if (e->behaviour[row] != BEHAVIOUR_DRIVEN || e->driver[row] == 0)
+    if (e->row[row].behaviour != BEHAVIOUR_DRIVEN || e->row[row].driver == 0)
         return 0;
-    return query->player && e->driver[row] == query->player->source ? 2 : 1;
+    return query->player && e->row[row].driver == query->player->source ? 2 : 1;
 }

@@ -1,4 +1,4 @@
-/* Fills boxes and records from the columns, a block of rows at a time and four rows at once. The
+/* Fills boxes and records from the rows, a block of rows at a time and four rows at once. The
  * results are equal to the bit to those of body_motion_compute, pair_filter_box and the functions
  * of strip_bins.h. */
 #include "collider/broad_phase/body_boxes.h"
@@ -11,10 +11,9 @@
 
 #include <string.h>
 
-#define BLOCK     64
-#define LINE_ROWS 8           /* doubles in a cache line */
-#define AHEAD     (3 * BLOCK) /* rows from the prefetch of a value to its use */
-#define LONG_M    64.0        /* extent in x from which a path is clipped to its strips */
+#define BLOCK  64
+#define AHEAD  8    /* rows from the prefetch of one to its use */
+#define LONG_M 64.0 /* extent in x from which a path is clipped to its strips */
 
 /* Not all bodies whose boxes meet theirs are pairs with such rows. */
 #define NOT_ALL_FOUND (BIN_RESTS | BIN_ROUND | BIN_AIR | BIN_WIDE)
@@ -35,7 +34,7 @@ _Static_assert(BLOCK == 64, "a word has a bit for each row of a block");
 _Static_assert(sizeof(struct path_box) == 6 * sizeof(float), "a box is its six bounds");
 
 struct block {
-    /* Copies of what cannot be read in place: short blocks, new rows, computed paths. */
+    /* Where the paths begin and end. */
     _Alignas(64) double at[3][BLOCK], to[3][BLOCK];
     double margin[BLOCK];
     uint32_t rests[BLOCK]; /* BIN_RESTS or 0 */
@@ -46,18 +45,7 @@ struct block {
     struct path_box box[BLOCK]; /* used for a block that is not full */
 };
 
-/* Where the paths of a block begin and end. */
-struct ends {
-    const double *at[3], *to[3];
-};
-
 /* --- ways --------------------------------------------------------------------------------------*/
-
-static struct ends own_ends(const struct block *block)
-{
-    return (struct ends){{block->at[0], block->at[1], block->at[2]},
-                         {block->to[0], block->to[1], block->to[2]}};
-}
 
 static inline void put_path(struct block *block, uint32_t k, const struct path *path)
 {
@@ -71,58 +59,43 @@ static inline void put_path(struct block *block, uint32_t k, const struct path *
 }
 
 /* Reads the ends from the computed paths. */
-static struct ends take_paths(struct block *block, const struct path *path, uint32_t count)
+static void take_paths(struct block *block, const struct path *path, uint32_t count)
 {
     for (uint32_t k = 0; k < count; k++) {
         __builtin_prefetch(&path[k + AHEAD]);
         put_path(block, k, &path[k]);
         block->rests[k] = pair_filter_rests(&path[k]) ? BIN_RESTS : 0;
     }
-    return own_ends(block);
 }
 
-/* Reads the ends from the columns. A new row begins where it ends. */
-static struct ends take_places(struct block *block, const struct body_motion *motion,
-                               uint32_t first, uint32_t count)
+/* Reads the ends from the rows. A new row begins where it ends. */
+static void take_places(struct block *block, const struct body_motion *motion, uint32_t first,
+                        uint32_t count)
 {
-    const struct entities *w = &motion->committed->entities, *n = &motion->next->entities;
-    const struct ends ends = {{w->x + first, w->y + first, w->z + first},
-                              {n->x + first, n->y + first, n->z + first}};
-    bool old = first + count <= motion->committed->head->used &&
-               memcmp(w->id + first, n->id + first, count * sizeof *n->id) == 0;
-    if (old && count == BLOCK)
-        return ends;
-    for (int axis = 0; axis < 3; axis++) {
-        memcpy(block->at[axis], ends.at[axis], count * sizeof(double));
-        memcpy(block->to[axis], ends.to[axis], count * sizeof(double));
-        for (uint32_t k = 0; !old && k < count; k++) {
-            if (!body_motion_old(motion, first + k))
-                block->at[axis][k] = block->to[axis][k];
-        }
+    const struct entity *w = motion->committed->entities.row + first;
+    const struct entity *n = motion->next->entities.row + first;
+    for (uint32_t k = 0; k < count; k++) {
+        const struct entity *at = body_motion_old(motion, first + k) ? &w[k] : &n[k];
+        __builtin_prefetch(&w[k + AHEAD]);
+        __builtin_prefetch(&n[k + AHEAD]);
+        block->at[0][k] = at->x;
+        block->at[1][k] = at->y;
+        block->at[2][k] = at->z;
+        block->to[0][k] = n[k].x;
+        block->to[1][k] = n[k].y;
+        block->to[2][k] = n[k].z;
     }
-    return own_ends(block);
 }
 
 /* Makes the paths of rows that cruise those of their stretches. */
-static void take_stretches(const struct body_boxes *rows, struct block *block, struct ends *ends,
-                           uint32_t first, uint32_t count)
+static void take_stretches(const struct body_boxes *rows, struct block *block, uint32_t first,
+                           uint32_t count)
 {
     const uint64_t tick = rows->motion->next->head->tick - 1;
-    const uint32_t *until = rows->motion->next->entities.cruise_tick + first;
-    uint32_t any = 0;
+    const struct entity *row = rows->motion->next->entities.row + first;
     block->cruises = 0;
     for (uint32_t k = 0; k < count; k++)
-        any |= until[k] > tick;
-    for (uint32_t k = 0; any && k < count; k++)
-        block->cruises |= (uint64_t)(until[k] > tick) << k;
-    for (int axis = 0; any && axis < 3; axis++) {
-        if (ends->at[axis] != block->at[axis]) {
-            memcpy(block->at[axis], ends->at[axis], count * sizeof(double));
-            memcpy(block->to[axis], ends->to[axis], count * sizeof(double));
-        }
-    }
-    if (any)
-        *ends = own_ends(block);
+        block->cruises |= (uint64_t)(row[k].cruise_tick > tick) << k;
     for (uint64_t bits = block->cruises; bits != 0; bits &= bits - 1) {
         uint32_t k = (uint32_t)__builtin_ctzll(bits);
         struct path path = body_motion_stretch(rows->motion, first + k);
@@ -134,14 +107,6 @@ static void take_stretches(const struct body_boxes *rows, struct block *block, s
 static void find_resting(const struct body_boxes *rows, struct block *block, uint32_t first,
                          uint32_t count)
 {
-    const struct entities *w = &rows->motion->committed->entities,
-                          *n = &rows->motion->next->entities;
-    const double *angle[] = {w->heading, w->pitch, w->roll, n->heading, n->pitch, n->roll};
-    /* A row that rests now was probably at rest before: prefetch the angles of the next block. */
-    for (uint32_t i = 0; i < sizeof angle / sizeof angle[0]; i++) {
-        for (uint32_t k = 0; k < BLOCK; k += LINE_ROWS)
-            __builtin_prefetch(angle[i] + first + BLOCK + k);
-    }
     for (uint32_t k = 0; k < count; k++) {
         if (block->rests[k] && body_motion_rotates(rows->motion, first + k))
             block->rests[k] = 0;
@@ -153,11 +118,9 @@ static void find_resting(const struct body_boxes *rows, struct block *block, uin
 static void take_kinds(const struct body_boxes *rows, struct block *block, uint32_t first,
                        uint32_t count)
 {
-    const uint8_t *state = rows->input->entities->state + first;
-    const uint16_t *kinds = rows->input->entities->kind + first;
-    const double *x = rows->input->entities->x + first, *z = rows->input->entities->z + first;
+    const struct entity *row = rows->input->entities->row + first;
     for (uint32_t k = 0; k < count; k++) {
-        uint32_t kind = state[k] != ENTITY_FREE ? kinds[k] : 0;
+        uint32_t kind = row[k].state != ENTITY_FREE ? row[k].kind : 0;
         block->margin[k] = rows->margin[kind];
         if (rows->wider && rows->wider[first + k] != BODY_BOX_EXACT)
             block->margin[k] += BODY_BOX_WIDER_M;
@@ -165,7 +128,7 @@ static void take_kinds(const struct body_boxes *rows, struct block *block, uint3
         if (rows->flags[kind] & BIN_AIR && rows->input->heights)
             __builtin_prefetch(
                 &rows->input->heights
-                     ->bound[gridsquare_of(&rows->input->heights->squares, x[k], z[k])]);
+                     ->bound[gridsquare_of(&rows->input->heights->squares, row[k].x, row[k].z)]);
     }
 }
 
@@ -214,8 +177,8 @@ static void put_records(struct block *block, uint32_t k, four_steps west, four_s
 /* Computes boxes and records from the ends. moved: the ends are positions, and the path leads from
  * one to the other as in body_motion_path. count: rows, to which up to three are added. Rows whose
  * path has no length are marked; returns true if there are any. */
-static bool bound_rows(struct block *block, const struct ends *ends, bool moved, float steps_per_m,
-                       struct path_box *box, uint32_t count)
+static bool bound_rows(struct block *block, bool moved, float steps_per_m, struct path_box *box,
+                       uint32_t count)
 {
     four_masks any = {0};
     for (uint32_t k = 0; k < count; k += 4) {
@@ -224,10 +187,8 @@ static bool bound_rows(struct block *block, const struct ends *ends, bool moved,
         four_masks rests = {-1, -1, -1, -1};
         for (int axis = 0; axis < 3; axis++) {
             four at, to;
-            memcpy(&at, ends->at[axis] + k, sizeof at);
-            memcpy(&to, ends->to[axis] + k, sizeof to);
-            __builtin_prefetch(ends->at[axis] + k + AHEAD);
-            __builtin_prefetch(ends->to[axis] + k + AHEAD);
+            memcpy(&at, &block->at[axis][k], sizeof at);
+            memcpy(&to, &block->to[axis][k], sizeof to);
             four along = to - at;
             rests &= along == 0.0;
             to = moved ? at + along : to;
@@ -251,7 +212,7 @@ static void add_spanning(const struct body_boxes *rows, struct strip_bins *bins,
 {
     uint32_t row = record.tag & BIN_ROW;
     const struct path_box *box = &rows->box[row];
-    double margin = rows->margin[rows->input->entities->kind[row]];
+    double margin = rows->margin[rows->input->entities->row[row].kind];
     bool is_long = false;
     record.tag |= BIN_SPANS;
     if (record.tag & BIN_WIDE) {
@@ -279,19 +240,19 @@ static void add_spanning(const struct body_boxes *rows, struct strip_bins *bins,
 /* Adds the row to the fliers if it can reach the ground or is a round. An aircraft that cruises
  * cannot (mover/motion/aircraft.c). */
 static void add_flier(const struct body_boxes *rows, struct sweep_worker *sweeper,
-                      const struct ends *ends, uint32_t k, uint32_t tag)
+                      const struct block *block, uint32_t k, uint32_t tag)
 {
     const struct method_input *input = rows->input;
     uint32_t row = tag & BIN_ROW;
-    struct vec3 at = {ends->at[0][k], ends->at[1][k], ends->at[2][k]};
-    struct vec3 to = {ends->to[0][k], ends->to[1][k], ends->to[2][k]};
+    struct vec3 at = {block->at[0][k], block->at[1][k], block->at[2][k]};
+    struct vec3 to = {block->to[0][k], block->to[1][k], block->to[2][k]};
     if (!(tag & BIN_ROUND) && rows->motion) {
-        double lower = ground_impact_lower(input->world, input->entities->kind[row]);
+        double lower = ground_impact_lower(input->world, input->entities->row[row].kind);
         at.y -= lower;
         to.y -= lower;
     }
-    if (input->entities->state[row] != ENTITY_ACTIVE ||
-        (!(tag & BIN_ROUND) && input->entities->flags[row] & ENTITY_FLAG_LANDED) ||
+    if (input->entities->row[row].state != ENTITY_ACTIVE ||
+        (!(tag & BIN_ROUND) && input->entities->row[row].flags & ENTITY_FLAG_LANDED) ||
         (!(tag & BIN_ROUND) && input->heights &&
          square_bounds_clear(input->heights, input->craters, at, to)))
         return;
@@ -302,13 +263,13 @@ static void add_flier(const struct body_boxes *rows, struct sweep_worker *sweepe
 
 /* Adds the record of row k of the block, which is row `row` of the table and is in use. */
 static void add_row(const struct body_boxes *rows, struct sweep_worker *sweeper,
-                    const struct block *block, const struct ends *ends, uint32_t k, uint32_t row)
+                    const struct block *block, uint32_t k, uint32_t row)
 {
     const struct entities *e = rows->input->entities;
     struct bin_record record = block->record[k];
-    bool flies = e->behaviour[row] == BEHAVIOUR_FLIGHT;
+    bool flies = e->row[row].behaviour == BEHAVIOUR_FLIGHT;
     record.tag |= block->rests[k] | (flies ? BIN_ROUND : 0) |
-                  (e->behaviour[row] == BEHAVIOUR_REMOTE ? BIN_REMOTE : 0);
+                  (e->row[row].behaviour == BEHAVIOUR_REMOTE ? BIN_REMOTE : 0);
     if (flies && remote_is_munition(e, row))
         record.tag |= BIN_REMOTE | BIN_AIR;
     if (rows->wider && rows->wider[row] != BODY_BOX_EXACT)
@@ -318,7 +279,7 @@ static void add_row(const struct body_boxes *rows, struct sweep_worker *sweeper,
     else
         add_spanning(rows, &sweeper->bins, record);
     if (record.tag & (BIN_ROUND | BIN_AIR) && !(block->cruises >> k & 1))
-        add_flier(rows, sweeper, ends, k, record.tag);
+        add_flier(rows, sweeper, block, k, record.tag);
 }
 
 /* --- blocks ------------------------------------------------------------------------------------*/
@@ -329,25 +290,24 @@ static void bin_block(const struct body_boxes *rows, struct block *block,
                       struct sweep_worker *sweeper, uint32_t first, uint32_t count)
 {
     struct path_box *box = rows->box + first, *to = count < BLOCK ? block->box : box;
-    const uint8_t *state = rows->input->entities->state + first;
-    struct ends ends;
+    const struct entity *row = rows->input->entities->row + first;
     take_kinds(rows, block, first, count);
     if (rows->motion) {
-        ends = take_places(block, rows->motion, first, count);
+        take_places(block, rows->motion, first, count);
         if (rows->awake)
-            take_stretches(rows, block, &ends, first, count);
-        if (bound_rows(block, &ends, true, rows->steps_per_m, to, BLOCK))
+            take_stretches(rows, block, first, count);
+        if (bound_rows(block, true, rows->steps_per_m, to, BLOCK))
             find_resting(rows, block, first, count);
     } else {
-        ends = take_paths(block, rows->input->path + first, count);
-        bound_rows(block, &ends, false, rows->steps_per_m, to, BLOCK);
+        take_paths(block, rows->input->path + first, count);
+        bound_rows(block, false, rows->steps_per_m, to, BLOCK);
     }
     if (count < BLOCK)
         memcpy(box, block->box, count * sizeof *box);
     uint64_t old = rows->awake ? block->cruises & ~rows->awake[first / 64] : 0;
     for (uint32_t k = 0; k < count; k++) {
-        if (state[k] != ENTITY_FREE && !(old >> k & 1))
-            add_row(rows, sweeper, block, &ends, k, first + k);
+        if (row[k].state != ENTITY_FREE && !(old >> k & 1))
+            add_row(rows, sweeper, block, k, first + k);
     }
 }
 
@@ -361,8 +321,8 @@ static void take_row(const struct body_boxes *rows, struct block *block, uint32_
                                       : rows->input->path[row];
     bool wider = rows->wider && rows->wider[row] != BODY_BOX_EXACT;
     put_path(block, k, &path);
-    block->margin[k] = rows->margin[e->kind[row]] + (wider ? BODY_BOX_WIDER_M : 0.0);
-    block->tag[k] = row | rows->flags[e->kind[row]];
+    block->margin[k] = rows->margin[e->row[row].kind] + (wider ? BODY_BOX_WIDER_M : 0.0);
+    block->tag[k] = row | rows->flags[e->row[row].kind];
     block->rests[k] = pair_filter_rests(&path) ? BIN_RESTS : 0;
     block->cruises |= (uint64_t)cruises << k;
 }
@@ -383,17 +343,16 @@ VECTOR_CLONES void body_boxes_bin_some(const struct body_boxes *rows, struct swe
     block.cruises = 0;
     for (; some != 0; some &= some - 1) {
         uint32_t i = first + (uint32_t)__builtin_ctzll(some);
-        if (rows->input->entities->state[i] == ENTITY_FREE)
+        if (rows->input->entities->row[i].state == ENTITY_FREE)
             continue;
         row[count] = i;
         take_row(rows, &block, count++, i);
     }
     for (uint32_t k = count; k % 4 != 0; k++) /* of rows that are not there */
         take_row(rows, &block, k, row[0]);
-    const struct ends ends = own_ends(&block);
-    bound_rows(&block, &ends, false, rows->steps_per_m, block.box, count);
+    bound_rows(&block, false, rows->steps_per_m, block.box, count);
     for (uint32_t k = 0; k < count; k++) {
         rows->box[row[k]] = block.box[k];
-        add_row(rows, sweeper, &block, &ends, k, row[k]);
+        add_row(rows, sweeper, &block, k, row[k]);
     }
 }

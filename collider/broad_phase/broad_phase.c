@@ -126,7 +126,7 @@ static void meet_cruising(void *context, uint32_t first, uint32_t end, uint32_t 
         for (uint64_t bits = broad->binned[w] & broad->resting.awake[w]; bits != 0;
              bits &= bits - 1) {
             uint32_t row = w * 64 + (uint32_t)__builtin_ctzll(bits);
-            if (job->rows.input->entities->state[row] != ENTITY_FREE &&
+            if (job->rows.input->entities->row[row].state != ENTITY_FREE &&
                 broad->wider[row] == BODY_BOX_EXACT)
                 cruise_index_pairs(&broad->cruise, row, &broad->box[row],
                                    &broad->sweeper[worker].pairs);
@@ -140,7 +140,7 @@ static void meet_widened(const struct broad_phase *broad, const struct method_in
     for (uint32_t i = 0; i < broad->widened_count; i++) {
         uint32_t row = broad->widened[i];
         struct path_box box = broad->box[row];
-        if (row >= input->rows || input->entities->state[row] == ENTITY_FREE)
+        if (row >= input->rows || input->entities->row[row].state == ENTITY_FREE)
             continue;
         box.min_x -= (float)(2.0 * BODY_BOX_WIDER_M), box.max_x += (float)(2.0 * BODY_BOX_WIDER_M);
         box.min_z -= (float)(2.0 * BODY_BOX_WIDER_M), box.max_z += (float)(2.0 * BODY_BOX_WIDER_M);
@@ -157,7 +157,7 @@ static void hold(struct broad_phase *broad, const struct body_motion *motion, bo
         uint64_t bits = broad->binned[w] & ~broad->cruise.held[w];
         for (bits &= all ? UINT64_MAX : ~broad->resting.awake[w]; bits != 0; bits &= bits - 1) {
             uint32_t row = w * 64 + (uint32_t)__builtin_ctzll(bits);
-            if (motion->next->entities.state[row] != ENTITY_FREE &&
+            if (motion->next->entities.row[row].state != ENTITY_FREE &&
                 body_motion_cruises(motion, row))
                 cruise_index_add(&broad->cruise, row, &broad->box[row]);
         }

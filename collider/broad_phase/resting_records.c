@@ -12,6 +12,27 @@
 /* When more rows of a block than one in so many move, the records of all are made. */
 #define MOVING_SHARE 4u
 
+#define POSE_FIELDS                                                                                \
+    (FIELD_BIT(x) | FIELD_BIT(y) | FIELD_BIT(z) | FIELD_BIT(heading) | FIELD_BIT(pitch) |          \
+     FIELD_BIT(roll) | FIELD_BIT(turret) | FIELD_BIT(gun) | FIELD_BIT(id) | FIELD_BIT(kind) |      \
+     FIELD_BIT(state) | FIELD_BIT(behaviour) | FIELD_BIT(flags) | FIELD_BIT(cruise_tick) |         \
+     FIELD_BIT(cruise_rps) | FIELD_BIT(cruise_mps2) | FIELD_BIT(cruise_climb_mps2) |               \
+     FIELD_BIT(cruise_pitch_rps) | FIELD_BIT(cruise_roll_rps))
+
+bool pose_differs(const struct entity *a, const struct entity *b)
+{
+    uint64_t fields = 0;
+    if (memcmp((const unsigned char *)&a->x, (const unsigned char *)&b->x, sizeof a->x) != 0)
+        return true; /* as of most that move */
+#define X(type, name)                                                                              \
+    fields |= (POSE_FIELDS & FIELD_BIT(name)) *                                                    \
+              (uint64_t)(memcmp((const unsigned char *)&a->name, (const unsigned char *)&b->name,  \
+                                sizeof(type)) != 0);
+    ENTITY_FIELDS(X)
+#undef X
+    return fields != 0;
+}
+
 int resting_records_init(struct resting_records *resting, uint32_t rows)
 {
     uint32_t blocks = (rows + RESTING_RECORDS_ROWS - 1) / RESTING_RECORDS_ROWS;
@@ -131,10 +152,10 @@ static uint64_t sort_out(struct resting_records *resting, const struct body_boxe
     for (uint64_t left = bits; left != 0; left &= left - 1) {
         uint32_t i = word * 64 + (uint32_t)__builtin_ctzll(left);
         uint64_t bit = left & -left;
-        if (e->state[i] == ENTITY_FREE)
+        if (e->row[i].state == ENTITY_FREE)
             continue;
-        rounds |= e->behaviour[i] == BEHAVIOUR_FLIGHT ? bit : 0;
-        flies |= rows->flags[e->kind[i]] & BIN_AIR ? bit : 0;
+        rounds |= e->row[i].behaviour == BEHAVIOUR_FLIGHT ? bit : 0;
+        flies |= rows->flags[e->row[i].kind] & BIN_AIR ? bit : 0;
     }
     resting->flies[word] = flies;
     return bits & ~rounds;

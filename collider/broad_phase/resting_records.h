@@ -18,13 +18,9 @@
 #define RESTING_RECORDS_ROWS  1024u /* of a block */
 #define RESTING_RECORDS_WORDS (RESTING_RECORDS_ROWS / 64u)
 
-/* The columns from which the records of bodies follow. */
-#define POSE_COLUMNS                                                                               \
-    (COLUMN_BIT(x) | COLUMN_BIT(y) | COLUMN_BIT(z) | COLUMN_BIT(heading) | COLUMN_BIT(pitch) |     \
-     COLUMN_BIT(roll) | COLUMN_BIT(turret) | COLUMN_BIT(gun) | COLUMN_BIT(id) | COLUMN_BIT(kind) | \
-     COLUMN_BIT(state) | COLUMN_BIT(behaviour) | COLUMN_BIT(flags) | COLUMN_BIT(cruise_tick) |     \
-     COLUMN_BIT(cruise_rps) | COLUMN_BIT(cruise_mps2) | COLUMN_BIT(cruise_climb_mps2) |            \
-     COLUMN_BIT(cruise_pitch_rps) | COLUMN_BIT(cruise_roll_rps))
+/* Returns true if two rows differ, bit by bit, in a field from which the records of bodies follow:
+ * in pose or stretch. */
+bool pose_differs(const struct entity *a, const struct entity *b);
 
 /* The rows of a block that do not rest in this frame: whose record may not be that of the frame
  * before. */

@@ -109,7 +109,7 @@ static struct sweep_and_prune_span span_in(const struct strips *strips, uint32_t
         return (struct sweep_and_prune_span){bin_steps(strips->steps_per_m, box->min_x),
                                              bin_steps(strips->steps_per_m, box->max_x)};
     return sweep_and_prune_span(strips->steps_per_m, &strips->input->path[row], box,
-                                strips->margin[strips->input->entities->kind[row]], strip);
+                                strips->margin[strips->input->entities->row[row].kind], strip);
 }
 
 static bool spans_meet(struct sweep_and_prune_span p, struct sweep_and_prune_span q)
@@ -141,8 +141,8 @@ static bool met_before(const struct strips *strips, uint32_t a, uint32_t b, uint
  * their boxes meet. Of rows that cruise it has to be known what comes near to their boxes. */
 static bool pass_by(const struct strips *strips, uint32_t a, uint32_t b)
 {
-    const uint16_t *kind = strips->input->entities->kind;
-    double margins_m = strips->margin[kind[a]] + strips->margin[kind[b]];
+    const struct entity *row = strips->input->entities->row;
+    double margins_m = strips->margin[row[a].kind] + strips->margin[row[b].kind];
     return pair_filter_only_corners_meet(&strips->box[a], &strips->box[b], margins_m) &&
            !(strips->motion &&
              (body_motion_cruises(strips->motion, a) || body_motion_cruises(strips->motion, b)));

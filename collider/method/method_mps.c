@@ -19,8 +19,9 @@ static uint32_t list_platforms(const struct method_input *input, struct spot *sp
     const struct entities *e = input->entities;
     uint32_t count = 0;
     for (uint32_t i = 0; i < input->rows; i++) {
-        if (pair_filter_there(input, i) && input->world->kinds[e->kind[i]].domain < DOMAIN_MUNITION)
-            spot[count++] = (struct spot){e->x[i], e->z[i], i};
+        if (pair_filter_there(input, i) &&
+            input->world->kinds[e->row[i].kind].domain < DOMAIN_MUNITION)
+            spot[count++] = (struct spot){e->row[i].x, e->row[i].z, i};
     }
     return count;
 }

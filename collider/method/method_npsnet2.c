@@ -64,11 +64,12 @@ static struct ray_polygon_model model_of_row(const struct method_input *input, u
     const struct entities *e = input->entities;
     return (struct ray_polygon_model){
         .world = input->world,
-        .model = input->world->kinds[e->kind[row]].model,
+        .model = input->world->kinds[e->row[row].kind].model,
         .scale = 1.0,
-        .turn = rotation_matrix(rotation_of(e->heading[row], e->pitch[row], e->roll[row])),
+        .turn =
+            rotation_matrix(rotation_of(e->row[row].heading, e->row[row].pitch, e->row[row].roll)),
         .at = entities_position(e, row),
-        .middle_m = mass_properties_of(&input->world->kinds[e->kind[row]]).centre_m};
+        .middle_m = mass_properties_of(&input->world->kinds[e->row[row].kind]).centre_m};
 }
 
 static struct ray_polygon_model model_of_fixed(const struct world *world,

@@ -33,8 +33,6 @@
 #define AXIS_TURN_RAD  0.5
 #define AXIS_PITCH_RAD 0.7
 
-#define BEGINS 6u /* columns of body_motion.before that are the collider's own */
-
 /* Leaning moves a point of a body about its axis, by no more than it is off the axis, and towards
  * its middle. So only its place along the axis and how far it is off it matter: it is within the
  * greatest such distance of a point of the axis that is nearer to the middle by the root of the
@@ -70,7 +68,7 @@ int body_motion_init(struct body_motion *motion, const struct world *world)
     motion->parting_rps = calloc(capacity, sizeof *motion->parting_rps);
     motion->fall = calloc(capacity, sizeof *motion->fall);
     motion->pose = reserve_take(2 * (uint64_t)capacity, sizeof *motion->pose);
-    motion->begins = reserve_take(BEGINS * (uint64_t)capacity, sizeof *motion->begins);
+    motion->begins = reserve_take(capacity, sizeof *motion->begins);
     if (!motion->path || !motion->computed || !motion->change || !motion->changed || !motion->row ||
         !motion->parting_rps || !motion->fall || !motion->pose || !motion->begins) {
         body_motion_free(motion);
@@ -103,15 +101,13 @@ void body_motion_touch(const struct body_motion *motion, uint32_t rows)
     prefault_own(motion->parting_rps, rows * sizeof *motion->parting_rps);
     prefault_own(motion->fall, rows * sizeof *motion->fall);
     prefault_own(motion->pose, 2 * (size_t)rows * sizeof *motion->pose);
-    for (uint64_t i = 0; motion->world->params->cruise && i < BEGINS; i++)
-        prefault_own(motion->begins + i * motion->world->params->capacity,
-                     rows * sizeof *motion->begins);
+    if (motion->world->params->cruise)
+        prefault_own(motion->begins, rows * sizeof *motion->begins);
 }
 
 void body_motion_begin(struct body_motion *motion, const struct state *committed,
                        const struct state *next, const struct crater_index *craters)
 {
-    uint64_t rows = motion->world->params->capacity;
     for (uint32_t i = 0; i < motion->changes; i++)
         motion->change[motion->row[i]] = 0;
     motion->changes = 0;
@@ -122,12 +118,7 @@ void body_motion_begin(struct body_motion *motion, const struct state *committed
     motion->craters = craters;
     motion->before = committed->entities;
     if (motion->world->params->cruise) {
-        motion->before.x = motion->begins;
-        motion->before.y = motion->begins + rows;
-        motion->before.z = motion->begins + 2 * rows;
-        motion->before.heading = motion->begins + 3 * rows;
-        motion->before.pitch = motion->begins + 4 * rows;
-        motion->before.roll = motion->begins + 5 * rows;
+        motion->before.row = motion->begins;
     }
     motion->models = motion->world->params->collision.shape == SHAPE_MODEL;
 }
@@ -141,12 +132,17 @@ static struct cruise_pose begins_at(const struct body_motion *motion, uint32_t r
 
 static void note_begin(const struct body_motion *motion, uint32_t row)
 {
-    uint64_t rows = motion->world->params->capacity;
+    struct entity *begins = &motion->begins[row];
+    *begins = motion->committed->entities.row[row];
+    if (!body_motion_old(motion, row))
+        return;
     const struct cruise_pose pose = begins_at(motion, row);
-    const double values[BEGINS] = {pose.at.x,        pose.at.y,      pose.at.z,
-                                   pose.heading_rad, pose.pitch_rad, pose.roll_rad};
-    for (uint32_t i = 0; i < BEGINS; i++)
-        motion->begins[i * rows + row] = values[i];
+    begins->x = pose.at.x;
+    begins->y = pose.at.y;
+    begins->z = pose.at.z;
+    begins->heading = pose.heading_rad;
+    begins->pitch = pose.pitch_rad;
+    begins->roll = pose.roll_rad;
 }
 
 /* What turns where it stands does not rest. */
@@ -176,7 +172,7 @@ static struct body_line line_until(const struct body_motion *motion, uint32_t ro
                              .to = cruise_position(n, row, tick, dt_s),
                              .left_s = left_s};
     double x = line.to.x - line.from.x, z = line.to.z - line.from.z, way_m = sqrt(x * x + z * z);
-    double arc_m = fabs(n->cruise_rps[row]) * left_s * way_m / 8.0;
+    double arc_m = fabs(n->row[row].cruise_rps) * left_s * way_m / 8.0;
     if (way_m > 0.0)
         line.around_m = STRETCH_ARCS * arc_m + STRETCH_AROUND_MPS * left_s;
     return line;
@@ -184,7 +180,7 @@ static struct body_line line_until(const struct body_motion *motion, uint32_t ro
 
 struct body_line body_motion_line(const struct body_motion *motion, uint32_t row)
 {
-    return line_until(motion, row, motion->next->entities.cruise_tick[row]);
+    return line_until(motion, row, motion->next->entities.row[row].cruise_tick);
 }
 
 /* Returns the line around a body that goes from one place to another while its axis points from its
@@ -215,9 +211,9 @@ struct body_line body_motion_line_around(const struct body_motion *motion, uint3
                                          uint64_t tick, double reach_m)
 {
     const struct entities *n = &motion->next->entities;
-    const struct body_axis *axis = &motion->axis[n->kind[row]];
+    const struct body_axis *axis = &motion->axis[n->row[row].kind];
     struct body_line way = line_until(motion, row, tick);
-    double half_rad = 0.5 * n->cruise_rps[row] * way.left_s;
+    double half_rad = 0.5 * n->row[row].cruise_rps * way.left_s;
     double heading = cruise_heading(n, row, tick, world_dt_s(motion->world)) - half_rad;
     double off_m = way.around_m + fabs(half_rad) * longest_of(axis);
     way.around_m += reach_m;
@@ -227,9 +223,9 @@ struct body_line body_motion_line_around(const struct body_motion *motion, uint3
 /* Returns true if the turret and the gun of the row point ahead in this frame. */
 static bool points_ahead(const struct body_motion *motion, uint32_t row)
 {
-    const struct entities *w = body_motion_before(motion, row), *n = &motion->next->entities;
-    return w->turret[row] == 0.0f && w->gun[row] == 0.0f && n->turret[row] == 0.0f &&
-           n->gun[row] == 0.0f;
+    const struct entities *w = body_motion_committed(motion, row), *n = &motion->next->entities;
+    return w->row[row].turret == 0.0f && w->row[row].gun == 0.0f && n->row[row].turret == 0.0f &&
+           n->row[row].gun == 0.0f;
 }
 
 /* Returns how far at most the axis of a row that does not cruise is off its last heading in this
@@ -238,13 +234,13 @@ static bool points_ahead(const struct body_motion *motion, uint32_t row)
 static double axis_turn(const struct body_motion *motion, uint32_t row,
                         const struct cruise_pose *from)
 {
-    const struct entities *w = body_motion_before(motion, row), *n = &motion->next->entities;
-    const struct vec3 spin = {w->spin_x[row], w->spin_y[row], w->spin_z[row]};
+    const struct entities *w = body_motion_committed(motion, row), *n = &motion->next->entities;
+    const struct vec3 spin = {w->row[row].spin_x, w->row[row].spin_y, w->row[row].spin_z};
     const double dt_s = world_dt_s(motion->world);
-    double turned = fabs(maths_wrap_half(n->heading[row] - from->heading_rad));
-    double leant = fabs(n->pitch[row] - from->pitch_rad) +
-                   fabs(maths_wrap_half(n->roll[row] - from->roll_rad));
-    double steepest = maths_max(fabs(n->pitch[row]), fabs(from->pitch_rad));
+    double turned = fabs(maths_wrap_half(n->row[row].heading - from->heading_rad));
+    double leant = fabs(n->row[row].pitch - from->pitch_rad) +
+                   fabs(maths_wrap_half(n->row[row].roll - from->roll_rad));
+    double steepest = maths_max(fabs(n->row[row].pitch), fabs(from->pitch_rad));
     if (turned + leant > AXIS_TURN_RAD || steepest > AXIS_PITCH_RAD ||
         vec3_dot(spin, spin) * dt_s * dt_s > AXIS_TURN_RAD * AXIS_TURN_RAD)
         return INFINITY;
@@ -256,10 +252,10 @@ struct body_line body_motion_frame_line(const struct body_motion *motion, uint32
                                         double reach_m)
 {
     const struct entities *n = &motion->next->entities;
-    const struct kind *kind = &motion->world->kinds[n->kind[row]];
-    const struct body_axis *axis = &motion->axis[n->kind[row]];
+    const struct kind *kind = &motion->world->kinds[n->row[row].kind];
+    const struct body_axis *axis = &motion->axis[n->row[row].kind];
     const struct vec3 to = entities_position(n, row);
-    struct cruise_pose from = {to, n->heading[row], n->pitch[row], n->roll[row]};
+    struct cruise_pose from = {to, n->row[row].heading, n->row[row].pitch, n->row[row].roll};
     double sine, cosine;
     if (body_motion_old(motion, row))
         from = begins_at(motion, row);
@@ -268,11 +264,11 @@ struct body_line body_motion_frame_line(const struct body_motion *motion, uint32
     if ((kind->domain != DOMAIN_LAND && kind->domain != DOMAIN_SEA) || turn_rad == INFINITY ||
         !points_ahead(motion, row))
         return way;
-    maths_sincos(n->heading[row], &sine, &cosine);
+    maths_sincos(n->row[row].heading, &sine, &cosine);
     double sideways_m = fabs(cosine * (to.x - from.at.x) + sine * (to.z - from.at.z));
     double off_m = sideways_m + turn_rad * longest_of(axis);
     return axis->beside_m + off_m < reach_m
-               ? line_around(motion, axis, &way, n->heading[row], off_m)
+               ? line_around(motion, axis, &way, n->row[row].heading, off_m)
                : way;
 }
 
@@ -280,11 +276,11 @@ struct body_line body_motion_standing_line(const struct body_motion *motion, uin
                                            double reach_m)
 {
     const struct entities *n = &motion->next->entities;
-    const struct body_axis *axis = &motion->axis[n->kind[row]];
+    const struct body_axis *axis = &motion->axis[n->row[row].kind];
     const struct vec3 at = entities_position(n, row);
     const struct body_line way = {.from = at, .to = at, .around_m = reach_m};
     return axis->beside_m < reach_m && points_ahead(motion, row)
-               ? line_around(motion, axis, &way, n->heading[row], 0.0)
+               ? line_around(motion, axis, &way, n->row[row].heading, 0.0)
                : way;
 }
 
@@ -293,8 +289,8 @@ static double rise_of(const struct body_motion *motion, uint32_t row, const stru
 {
     const struct entities *n = &motion->next->entities;
     double x = line->to.x - line->from.x, z = line->to.z - line->from.z;
-    double climb_mps2 = fabs((double)n->cruise_climb_mps2[row]), left_s = line->left_s;
-    if (motion->world->kinds[n->kind[row]].domain == DOMAIN_LAND)
+    double climb_mps2 = fabs((double)n->row[row].cruise_climb_mps2), left_s = line->left_s;
+    if (motion->world->kinds[n->row[row].kind].domain == DOMAIN_LAND)
         return STRETCH_SLOPE * sqrt(x * x + z * z);
     if (climb_mps2 == 0.0)
         return 0.0;
@@ -314,8 +310,7 @@ struct path body_motion_stretch(const struct body_motion *motion, uint32_t row)
 
 void body_motion_compute(struct body_motion *motion, uint32_t row)
 {
-    if (motion->before.x == motion->begins && body_motion_old(motion, row) &&
-        !motion->computed[row])
+    if (motion->before.row == motion->begins && !motion->computed[row])
         note_begin(motion, row);
     motion->path[row] = body_motion_path(motion, row);
     motion->computed[row] = 1;
@@ -337,7 +332,7 @@ static struct known_pose *place_of(const struct body_motion *motion, const struc
 static struct quat pose(const struct body_motion *motion, const struct entities *e, uint32_t row)
 {
     const struct known_pose *known = place_of(motion, e, row);
-    const double angle[3] = {e->heading[row], e->pitch[row], e->roll[row]};
+    const double angle[3] = {e->row[row].heading, e->row[row].pitch, e->row[row].roll};
     /* Bit by bit: a rotation by -0 has other signs of zero than one by 0. */
     if (known->known && memcmp((const unsigned char *)known->angle, (const unsigned char *)angle,
                                sizeof angle) == 0)
@@ -349,7 +344,7 @@ static void note_pose(struct body_motion *motion, const struct entities *e, uint
 {
     struct quat turn = pose(motion, e, row);
     *place_of(motion, e, row) =
-        (struct known_pose){{e->heading[row], e->pitch[row], e->roll[row]}, turn, 1};
+        (struct known_pose){{e->row[row].heading, e->row[row].pitch, e->row[row].roll}, turn, 1};
 }
 
 void body_motion_note_poses(struct body_motion *motion, uint32_t row)
@@ -360,13 +355,13 @@ void body_motion_note_poses(struct body_motion *motion, uint32_t row)
 }
 
 /* Returns the spin by which the mover turns the row: freely in the air, about the vertical on the
- * ground and on the water. Most rows have none, so few columns are read. */
+ * ground and on the water. Most rows have none, so few fields are read. */
 static struct vec3 committed_spin(const struct body_motion *motion, uint32_t row, bool flies)
 {
     const struct entities *w = &motion->committed->entities;
     if (!flies)
-        return (struct vec3){0.0, w->spin_y[row], 0.0};
-    return (struct vec3){w->spin_x[row], w->spin_y[row], w->spin_z[row]};
+        return (struct vec3){0.0, w->row[row].spin_y, 0.0};
+    return (struct vec3){w->row[row].spin_x, w->row[row].spin_y, w->row[row].spin_z};
 }
 
 /* Finds how the mover turned the row, if not the shorter way: an aircraft by any spin, another body
@@ -374,7 +369,7 @@ static struct vec3 committed_spin(const struct body_motion *motion, uint32_t row
 static void find_turn(const struct body_motion *motion, uint32_t row,
                       struct rotation_path *rotation)
 {
-    const struct kind *kind = &motion->world->kinds[motion->next->entities.kind[row]];
+    const struct kind *kind = &motion->world->kinds[motion->next->entities.row[row].kind];
     bool flies = kind->domain == DOMAIN_AIR;
     double dt_s = world_dt_s(motion->world), least = flies ? 0.0 : HALF_PI;
     struct vec3 spin = committed_spin(motion, row, flies);
@@ -466,7 +461,7 @@ static void put_shape(const struct world *world, uint16_t kind, double scale,
 void body_motion_aim(const struct body_motion *motion, uint32_t row, double turret, double gun,
                      double turret_turn, double gun_turn, struct swept_body *body)
 {
-    const struct kind *kind = &motion->world->kinds[motion->next->entities.kind[row]];
+    const struct kind *kind = &motion->world->kinds[motion->next->entities.row[row].kind];
     if (kind->part_count == 0 ||
         (turret == 0.0 && gun == 0.0 && turret_turn == 0.0 && gun_turn == 0.0))
         return;
@@ -482,14 +477,15 @@ void body_motion_aim(const struct body_motion *motion, uint32_t row, double turr
 static void aim_as_before(const struct body_motion *motion, uint32_t row, struct swept_body *body)
 {
     const struct entities *e = body_motion_before(motion, row);
-    body_motion_aim(motion, row, (double)e->turret[row], (double)e->gun[row], 0.0, 0.0, body);
+    body_motion_aim(motion, row, (double)e->row[row].turret, (double)e->row[row].gun, 0.0, 0.0,
+                    body);
 }
 
 void body_motion_put(const struct body_motion *motion, uint32_t row, struct free_turn *turn,
                      struct swept_body *body)
 {
     struct rotation_path rotation = body_motion_rotation(motion, row);
-    put_shape(motion->world, motion->next->entities.kind[row], 1.0, body);
+    put_shape(motion->world, motion->next->entities.row[row].kind, 1.0, body);
     body->path = motion->path[row];
     body->from = rotation.from;
     body->to = rotation.to;
@@ -529,7 +525,7 @@ struct swept_body body_motion_side(const struct body_motion *motion, uint32_t si
 void body_motion_put_standing(const struct body_motion *motion, const struct entities *entities,
                               uint32_t row, struct swept_body *body)
 {
-    put_shape(motion->world, entities->kind[row], 1.0, body);
+    put_shape(motion->world, entities->row[row].kind, 1.0, body);
     body->path = (struct path){.at = entities_position(entities, row)};
     body->from = body->to = pose(motion, entities, row);
     aim_as_before(motion, row, body);

@@ -42,8 +42,8 @@ struct body_motion {
     const struct state *committed;
     const struct state *next;
     const struct crater_index *craters;
-    /* The committed rows. In a world in which rows cruise place and angles are where a row was when
-     * the frame began, and are set for the rows whose path has been computed. */
+    /* The committed rows. In a world in which rows cruise those whose path has been computed:
+     * copies whose place and angles are where the row was when the frame began. */
     struct entities before;
     bool models;                   /* bodies collide by their models, not as spheres */
     struct path *path;             /* [capacity] of the rows whose path has been computed */
@@ -60,7 +60,7 @@ struct body_motion {
     /* [2 * capacity] of each row in both world buffers, kept from frame to frame. The angles are
      * compared, so that it saves work and changes no result. */
     struct known_pose *pose;
-    double *begins; /* [6 * capacity] the columns of before that are not the committed ones */
+    struct entity *begins;                 /* [capacity] such copies */
     struct body_axis axis[KIND_COUNT_MAX]; /* of each kind */
 };
 
@@ -121,18 +121,25 @@ static inline void body_motion_require(struct body_motion *motion, uint32_t row)
 static inline bool body_motion_old(const struct body_motion *motion, uint32_t row)
 {
     return row < motion->committed->head->used &&
-           motion->committed->entities.id[row] == motion->next->entities.id[row];
+           motion->committed->entities.row[row].id == motion->next->entities.row[row].id;
 }
 
-/* Returns the table in which the row begins the frame: a body that is new in this frame has no
- * committed row. */
+/* Returns the table in which a row whose path has been computed begins the frame: a body that is
+ * new in this frame has no committed row. */
 static inline const struct entities *body_motion_before(const struct body_motion *motion,
                                                         uint32_t row)
 {
     return body_motion_old(motion, row) ? &motion->before : &motion->next->entities;
 }
 
-/* Returns true if the row cruises in this frame (world/entity/cruise.h): its columns in next do not
+/* The same for what does not change while a row cruises: velocity, spin, gun, flags. Of any row. */
+static inline const struct entities *body_motion_committed(const struct body_motion *motion,
+                                                           uint32_t row)
+{
+    return body_motion_old(motion, row) ? &motion->committed->entities : &motion->next->entities;
+}
+
+/* Returns true if the row cruises in this frame (world/entity/cruise.h): its fields in next do not
  * say where it is. */
 static inline bool body_motion_cruises(const struct body_motion *motion, uint32_t row)
 {
@@ -145,8 +152,8 @@ static inline bool body_motion_rotated(const struct body_motion *motion, uint32_
     const struct entities *w = &motion->committed->entities, *n = &motion->next->entities;
     return body_motion_old(motion, row) &&
            (cruise_goes(w, row, motion->committed->head->tick) ||
-            w->heading[row] != n->heading[row] || w->pitch[row] != n->pitch[row] ||
-            w->roll[row] != n->roll[row]);
+            w->row[row].heading != n->row[row].heading || w->row[row].pitch != n->row[row].pitch ||
+            w->row[row].roll != n->row[row].roll);
 }
 
 /* Returns true if the mover turned the row's turret or raised its gun, and these collide on their
@@ -155,8 +162,8 @@ static inline bool body_motion_aimed(const struct body_motion *motion, uint32_t 
 {
     const struct entities *w = &motion->committed->entities, *n = &motion->next->entities;
     return body_motion_old(motion, row) &&
-           (w->turret[row] != n->turret[row] || w->gun[row] != n->gun[row]) &&
-           motion->world->kinds[n->kind[row]].part_count > 0;
+           (w->row[row].turret != n->row[row].turret || w->row[row].gun != n->row[row].gun) &&
+           motion->world->kinds[n->row[row].kind].part_count > 0;
 }
 
 /* Returns true if the mover moved or rotated the row, and not only its turret or its gun.

@@ -62,9 +62,9 @@ bool ground_impact_row(const struct method_input *input, const struct body_motio
     struct body_points points;
     if (remote_is(input->entities, row))
         return false; /* its owner knows where it touches down */
-    if (input->entities->behaviour[row] == BEHAVIOUR_FLIGHT)
+    if (input->entities->row[row].behaviour == BEHAVIOUR_FLIGHT)
         return pair_filter_ground(input, &input->path[row], toi);
-    body_points_of(input->world, input->entities->kind[row], &points);
+    body_points_of(input->world, input->entities->row[row].kind, &points);
     return reaches(input, &input->path[row], points.reach_m) &&
            points_meet(input, motion, row, &points, toi);
 }

@@ -67,7 +67,7 @@ static double kind_reach(const struct world *world, const struct kind *kind)
 
 double pair_filter_row_reach(const struct method_input *input, uint32_t row)
 {
-    return kind_reach(input->world, &input->world->kinds[input->entities->kind[row]]);
+    return kind_reach(input->world, &input->world->kinds[input->entities->row[row].kind]);
 }
 
 double pair_filter_slack(const struct world *world)
@@ -91,7 +91,7 @@ double pair_filter_fixed_reach(const struct world *world, const struct fixed_obj
 
 struct path_box pair_filter_box(const struct method_input *input, uint32_t row)
 {
-    const struct kind *kind = &input->world->kinds[input->entities->kind[row]];
+    const struct kind *kind = &input->world->kinds[input->entities->row[row].kind];
     return pair_filter_path_box(&input->path[row], pair_filter_margin(input->world, kind));
 }
 
@@ -115,7 +115,7 @@ static bool above_threshold(const struct method_input *input, const struct path 
 bool pair_filter_tests_fixed(const struct method_input *input, uint32_t row)
 {
     const struct path *path = &input->path[row];
-    const struct kind *kind = &input->world->kinds[input->entities->kind[row]];
+    const struct kind *kind = &input->world->kinds[input->entities->row[row].kind];
     return input->world->counts.fixed > 0 && !pair_filter_rests(path) &&
            !remote_is_munition(input->entities, row) &&
            !(kind->domain == DOMAIN_AIR && above_threshold(input, path));
@@ -123,13 +123,14 @@ bool pair_filter_tests_fixed(const struct method_input *input, uint32_t row)
 
 bool pair_same_shooter(const struct entities *e, uint32_t a, uint32_t b)
 {
-    bool round_a = e->behaviour[a] == BEHAVIOUR_FLIGHT,
-         round_b = e->behaviour[b] == BEHAVIOUR_FLIGHT;
-    if (round_a && e->owner_slot[a] == b && e->owner_id[a] == e->id[b])
+    bool round_a = e->row[a].behaviour == BEHAVIOUR_FLIGHT,
+         round_b = e->row[b].behaviour == BEHAVIOUR_FLIGHT;
+    if (round_a && e->row[a].owner_slot == b && e->row[a].owner_id == e->row[b].id)
         return true;
-    if (round_b && e->owner_slot[b] == a && e->owner_id[b] == e->id[a])
+    if (round_b && e->row[b].owner_slot == a && e->row[b].owner_id == e->row[a].id)
         return true;
-    return round_a && round_b && e->owner_id[a] != 0 && e->owner_id[a] == e->owner_id[b];
+    return round_a && round_b && e->row[a].owner_id != 0 &&
+           e->row[a].owner_id == e->row[b].owner_id;
 }
 
 bool pair_never_meets(const struct entities *e, uint32_t a, uint32_t b)

@@ -99,7 +99,7 @@ static inline bool pair_filter_rests(const struct path *path)
 /* Returns true if the row is in use and so can collide. */
 static inline bool pair_filter_there(const struct method_input *input, uint32_t row)
 {
-    return input->entities->state[row] != ENTITY_FREE;
+    return input->entities->row[row].state != ENTITY_FREE;
 }
 
 /* Returns true if the path reaches the ground; *toi is then when. */

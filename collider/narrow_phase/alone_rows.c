@@ -46,7 +46,7 @@ struct job {
 static struct path_box box_of(const struct contact_input *input, uint32_t row)
 {
     const struct body_motion *motion = input->motion;
-    const struct kind *kind = &motion->world->kinds[input->detect.entities->kind[row]];
+    const struct kind *kind = &motion->world->kinds[input->detect.entities->row[row].kind];
     const struct path path =
         motion->computed[row] ? motion->path[row] : body_motion_path(motion, row);
     return pair_filter_path_box(&path, pair_filter_margin(motion->world, kind));

@@ -238,10 +238,10 @@ static bool sweep_pair(struct contact_queue *contacts, const struct contact_inpu
                        uint32_t index, double from, struct contact *contact)
 {
     const struct pair *pair = &contacts->pair[index];
-    const uint8_t *state = input->detect.entities->state;
+    const struct entity *row = input->detect.entities->row;
     bool fixed = pair->b & PAIR_FIXED;
-    if (contacts->met[index] >= input->meets || state[pair->a] == ENTITY_FREE ||
-        (!fixed && state[pair->b] == ENTITY_FREE) ||
+    if (contacts->met[index] >= input->meets || row[pair->a].state == ENTITY_FREE ||
+        (!fixed && row[pair->b].state == ENTITY_FREE) ||
         (fixed && !pair_filter_stands(&input->detect, pair->b & ~PAIR_FIXED)))
         return false;
     if (contacts->marks[index] & CONTACT_PARTS ||
@@ -374,10 +374,10 @@ void contact_queue_ground(struct contact_queue *contacts, const struct contact_i
 {
     const struct entities *e = input->detect.entities;
     double toi;
-    bool flies = e->behaviour[row] == BEHAVIOUR_FLIGHT ||
-                 (input->detect.world->kinds[e->kind[row]].domain == DOMAIN_AIR &&
-                  !(e->flags[row] & ENTITY_FLAG_LANDED));
-    if (flies && e->state[row] == ENTITY_ACTIVE &&
+    bool flies = e->row[row].behaviour == BEHAVIOUR_FLIGHT ||
+                 (input->detect.world->kinds[e->row[row].kind].domain == DOMAIN_AIR &&
+                  !(e->row[row].flags & ENTITY_FLAG_LANDED));
+    if (flies && e->row[row].state == ENTITY_ACTIVE &&
         ground_impact_row(&input->detect, input->motion, row, &toi))
         contact_queue_add_end(contacts, row, CONTACT_GROUND, toi);
 }
@@ -391,8 +391,8 @@ static void find_end(struct job *job, uint32_t row)
         contact = end_of(job->contacts, row, CONTACT_GROUND, toi);
         note(job, &contact);
     }
-    if (e->behaviour[row] != BEHAVIOUR_FLIGHT || remote_is(e, row) ||
-        job->tick < e->until_tick[row])
+    if (e->row[row].behaviour != BEHAVIOUR_FLIGHT || remote_is(e, row) ||
+        job->tick < e->row[row].until_tick)
         return;
     contact = end_of(job->contacts, row, CONTACT_AIR, 1.0);
     note(job, &contact);

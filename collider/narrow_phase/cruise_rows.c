@@ -29,7 +29,7 @@ void cruise_rows_stop(const struct contact_input *input, uint32_t row)
 
 static double margin_of(const struct contact_input *input, uint32_t row)
 {
-    const struct kind *kind = &input->motion->world->kinds[input->detect.entities->kind[row]];
+    const struct kind *kind = &input->motion->world->kinds[input->detect.entities->row[row].kind];
     double margin = pair_filter_margin(input->motion->world, kind);
     return input->broad->wider[row] != BODY_BOX_EXACT ? margin + BODY_BOX_WIDER_M : margin;
 }
@@ -47,7 +47,7 @@ static struct path_box box_of(const struct contact_input *input, uint32_t row)
 static uint64_t end_of(const struct contact_input *input, uint32_t row)
 {
     const struct body_motion *motion = input->motion;
-    return body_motion_cruises(motion, row) ? motion->next->entities.cruise_tick[row]
+    return body_motion_cruises(motion, row) ? motion->next->entities.row[row].cruise_tick
                                             : motion->next->head->tick;
 }
 
@@ -136,19 +136,6 @@ static bool meet(const struct contact_input *input, const struct pair *pair)
     return meet_until(input, pair, UINT64_MAX, UINT64_MAX);
 }
 
-/* Returns true if the pose or the stretch of a row differs, bit by bit. */
-static bool pose_differs(const struct entities *a, const struct entities *b, uint32_t row)
-{
-    uint64_t columns = 0;
-#define X(type, name)                                                                              \
-    columns |= (POSE_COLUMNS & COLUMN_BIT(name)) *                                                 \
-               (uint64_t)(memcmp((const unsigned char *)&a->name[row],                             \
-                                 (const unsigned char *)&b->name[row], sizeof(type)) != 0);
-    ENTITY_COLUMNS(X)
-#undef X
-    return columns != 0;
-}
-
 /* Returns true if a row moves in this frame, begins a stretch, or has a wider box. By the tables
  * alone: a process that wrote the row in the frame before finds more pairs of it than a new one. */
 static bool comes(const struct contact_input *input, uint32_t row)
@@ -157,7 +144,7 @@ static bool comes(const struct contact_input *input, uint32_t row)
     const struct resting_records *resting = &input->broad->resting;
     return input->broad->wider[row] != BODY_BOX_EXACT || !body_motion_old(motion, row) ||
            ((resting_records_awake(resting, row) || resting_records_written(resting, row)) &&
-            pose_differs(&motion->committed->entities, &motion->next->entities, row));
+            pose_differs(&motion->committed->entities.row[row], &motion->next->entities.row[row]));
 }
 
 /* Returns true if neither row of a pair comes anywhere: whether they meet was found before. */
@@ -179,7 +166,7 @@ static bool may_shorten(const struct contact_input *input, uint32_t row)
     const uint64_t now = input->motion->next->head->tick;
     double left_s = cruise_left_s(e, row, now - 1, world_dt_s(input->motion->world));
     return body_motion_cruises(input->motion, row) &&
-           cruise_off(e->cruise_rps[row], e->cruise_mps2[row], left_s) <= CRUISE_OFF_M;
+           cruise_off(e->row[row].cruise_rps, e->row[row].cruise_mps2, left_s) <= CRUISE_OFF_M;
 }
 
 /* Which stretches of a pair are made shorter; the other ones go on to their ends. */
@@ -323,7 +310,7 @@ static void meet_standing(const struct contact_input *input, uint32_t row, struc
 {
     const struct entities *e = input->detect.entities;
     const double margin_m =
-        pair_filter_margin(input->detect.world, &input->detect.world->kinds[e->kind[row]]);
+        pair_filter_margin(input->detect.world, &input->detect.world->kinds[e->row[row].kind]);
     const struct path ends = {.at = entities_position(e, row)};
     const struct path_box box = pair_filter_path_box(&ends, margin_m);
     const struct body_line line = body_motion_standing_line(input->motion, row, margin_m);
@@ -339,7 +326,7 @@ void cruise_rows_meet_written(const struct contact_input *input, struct pair_lis
     for (uint32_t w = 0; w * 64 < input->detect.rows && broad->cruise.count > 0; w++) {
         for (uint64_t bits = broad->resting.written[w]; bits != 0; bits &= bits - 1) {
             uint32_t row = w * 64 + (uint32_t)__builtin_ctzll(bits);
-            if (row < input->detect.rows && input->detect.entities->state[row] != ENTITY_FREE &&
+            if (row < input->detect.rows && input->detect.entities->row[row].state != ENTITY_FREE &&
                 !body_motion_cruises(input->motion, row))
                 meet_standing(input, row, found);
         }

@@ -1,5 +1,5 @@
 /* The rows that cruise (world/entity/cruise.h) and may meet something in this frame. A row whose
- * stretch something is in the way of ends it: its columns then say where it is at the end of this
+ * stretch something is in the way of ends it: its fields then say where it is at the end of this
  * frame, and it is a row like any other. Nothing else of the collider looks at rows that cruise.
  *
  * Which rows end their stretch follows from the tables alone, not from what the broad phase has

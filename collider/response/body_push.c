@@ -15,7 +15,7 @@ struct pushed {
 
 static struct mass_properties properties_of(const struct response_context *context, uint32_t row)
 {
-    return mass_properties_of(&context->world->kinds[context->next->entities.kind[row]]);
+    return mass_properties_of(&context->world->kinds[context->next->entities.row[row].kind]);
 }
 
 struct vec3 body_push_centre(const struct response_context *context, uint32_t row, double time,

@@ -22,7 +22,7 @@
 
 static const struct kind *kind_of(const struct response_context *context, uint32_t row)
 {
-    return &context->world->kinds[context->next->entities.kind[row]];
+    return &context->world->kinds[context->next->entities.row[row].kind];
 }
 
 static const struct kind *fixed_kind_of(const struct response_context *context, uint32_t body)

@@ -45,13 +45,13 @@ void contact_table_free(struct contact_table *table)
 static struct persistent_contact contact_of(const struct response_context *context, uint32_t a,
                                             uint32_t b)
 {
-    const uint32_t *id = context->next->entities.id;
+    const struct entity *row = context->next->entities.row;
     if (b & PAIR_FIXED)
         return (struct persistent_contact){
-            .a_row = a, .a_id = id[a], .b_row = SLOT_NONE, .b_id = b};
-    uint32_t low = id[b] < id[a] ? b : a, high = low == a ? b : a;
+            .a_row = a, .a_id = row[a].id, .b_row = SLOT_NONE, .b_id = b};
+    uint32_t low = row[b].id < row[a].id ? b : a, high = low == a ? b : a;
     return (struct persistent_contact){
-        .a_row = low, .a_id = id[low], .b_row = high, .b_id = id[high]};
+        .a_row = low, .a_id = row[low].id, .b_row = high, .b_id = row[high].id};
 }
 
 const struct persistent_contact *contact_table_find(const struct response_context *context,
@@ -112,10 +112,11 @@ bool contact_table_begins(struct response_context *context, uint32_t pair)
 static bool has_touched(const struct response_context *context, uint32_t index)
 {
     const struct pair *pair = &context->contacts->pair[index];
-    const uint8_t *state = context->next->entities.state;
+    const struct entity *row = context->next->entities.row;
     uint8_t marks = context->contacts->marks[index];
-    return marks & CONTACT_PRESSED && !(marks & CONTACT_NO_ROOM) && state[pair->a] != ENTITY_FREE &&
-           (pair->b & PAIR_FIXED || state[pair->b] != ENTITY_FREE);
+    return marks & CONTACT_PRESSED && !(marks & CONTACT_NO_ROOM) &&
+           row[pair->a].state != ENTITY_FREE &&
+           (pair->b & PAIR_FIXED || row[pair->b].state != ENTITY_FREE);
 }
 
 /* The table's own lists are larger than the world's, if more pairs touch than it has room for. */
@@ -349,9 +350,9 @@ static struct event_party party_of(const struct response_context *context, uint3
 {
     const struct entities *e = &context->next->entities;
     if (!(id & PERSISTENT_CONTACT_FIXED) && !entities_alive(e, row, id))
-        e = &context->motion->before;
+        e = &context->motion->committed->entities;
     if (!(id & PERSISTENT_CONTACT_FIXED))
-        return (struct event_party){id, e->kind[row], 0, e->damage[row]};
+        return (struct event_party){id, e->row[row].kind, 0, e->row[row].damage};
     uint32_t object = id & ~PERSISTENT_CONTACT_FIXED;
     return (struct event_party){object + 1, context->world->fixed[object].kind, 1,
                                 (uint8_t)fallen_damage(context->next->fixed_damage[object])};

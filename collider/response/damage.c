@@ -40,18 +40,18 @@ static void set_damage(struct response_context *context, uint32_t row, enum dama
 static bool wreck(struct response_context *context, uint32_t row)
 {
     const struct entities *e = &context->next->entities;
-    const struct kind *kind = &context->world->kinds[e->kind[row]];
-    if (e->state[row] != ENTITY_ACTIVE || remote_is(e, row))
+    const struct kind *kind = &context->world->kinds[e->row[row].kind];
+    if (e->row[row].state != ENTITY_ACTIVE || remote_is(e, row))
         return false;
     table_set_state(&context->writer, row, ENTITY_WRECK);
     table_set_flags(&context->writer, row,
-                    e->flags[row] & (uint8_t) ~(ENTITY_FLAG_CHASSIS | ENTITY_FLAG_DISARMED));
+                    e->row[row].flags & (uint8_t) ~(ENTITY_FLAG_CHASSIS | ENTITY_FLAG_DISARMED));
     table_set_throttle(&context->writer, row, 0.0f);
     table_set_behaviour(&context->writer, row, BEHAVIOUR_IDLE);
     table_set_order(&context->writer, row, BEHAVIOUR_IDLE);
     table_set_until_tick(&context->writer, row,
                          0); /* it is not at rest (mover/motion/ground/wreck.h) */
-    table_set_harm_j(&context->writer, row, maths_max(e->harm_j[row], kind->resistance_j));
+    table_set_harm_j(&context->writer, row, maths_max(e->row[row].harm_j, kind->resistance_j));
     set_damage(context, row, DAMAGE_DESTROYED);
     context->next->head->tally.destroyed++;
     return true;
@@ -59,7 +59,7 @@ static bool wreck(struct response_context *context, uint32_t row)
 
 void damage_destroy(struct response_context *context, uint32_t row, double time)
 {
-    const struct kind *kind = &context->world->kinds[context->next->entities.kind[row]];
+    const struct kind *kind = &context->world->kinds[context->next->entities.row[row].kind];
     if (!wreck(context, row) || !(kind->explosive_kg > 0.0))
         return;
     const struct charge charge = {.point = path_at(&context->path[row], time),
@@ -79,10 +79,10 @@ void damage_overturn(struct response_context *context, uint32_t row)
 static void tell_ground(struct response_context *context, uint32_t row)
 {
     const struct entities *e = &context->next->entities;
-    if (context->world->kinds[e->kind[row]].domain != DOMAIN_LAND)
+    if (context->world->kinds[e->row[row].kind].domain != DOMAIN_LAND)
         return;
     struct vec3 at = entities_position(e, row);
-    struct vec3 before = entities_velocity(body_motion_before(context->motion, row), row);
+    struct vec3 before = entities_velocity(body_motion_committed(context->motion, row), row);
     ground_event_write(
         context, row,
         &(struct ground_strike){
@@ -92,7 +92,7 @@ static void tell_ground(struct response_context *context, uint32_t row)
                 terrain_normal(&context->world->terrain, context->input.detect.craters, at.x, at.z),
             .closing_mps = vec3_length(vec3_sub(before, entities_velocity(e, row))),
             .time = 1.0,
-            .response = e->state[row] == ENTITY_WRECK ? RESPONSE_DESTROYED : RESPONSE_STOP,
+            .response = e->row[row].state == ENTITY_WRECK ? RESPONSE_DESTROYED : RESPONSE_STOP,
         });
 }
 
@@ -101,7 +101,7 @@ static void tell_ground(struct response_context *context, uint32_t row)
 static bool told_by_mover(const struct response_context *context, uint32_t row)
 {
     const struct event_writer *events = &context->events;
-    uint32_t id = context->next->entities.id[row];
+    uint32_t id = context->next->entities.row[row].id;
     for (uint64_t i = 0; i < events->count; i++) {
         const struct event *event = &events->slot[(events->first + i) & (events->slots - 1)];
         if (event->type == EVENT_COLLISION && event->collision.remote &&
@@ -116,9 +116,9 @@ static bool told_by_mover(const struct response_context *context, uint32_t row)
 static void fall(struct response_context *context, uint32_t row)
 {
     const struct entities *e = &context->next->entities;
-    const struct kind *kind = &context->world->kinds[e->kind[row]];
-    enum damage damage = level(e->harm_j[row] / kind->resistance_j);
-    if (e->state[row] != ENTITY_ACTIVE || damage <= e->damage[row])
+    const struct kind *kind = &context->world->kinds[e->row[row].kind];
+    enum damage damage = level(e->row[row].harm_j / kind->resistance_j);
+    if (e->row[row].state != ENTITY_ACTIVE || damage <= e->row[row].damage)
         return;
     if (damage == DAMAGE_DESTROYED)
         wreck(context, row);
@@ -128,57 +128,39 @@ static void fall(struct response_context *context, uint32_t row)
         tell_ground(context, row);
 }
 
-/* Returns true if any of rows first .. end - 1 is on its springs. */
-static bool overturned_rows(struct response_context *context, uint32_t first, uint32_t end)
+static void overturn_or_fall(struct response_context *context, uint32_t row)
 {
-    const struct entities *e = &context->next->entities;
-    bool sprung = false;
-    for (; first < end; first += 8) {
-        uint32_t past = end - first < 8 ? end : first + 8;
-        uint64_t eight = 0;
-        memcpy(&eight, e->flags + first, past - first);
-        for (uint32_t row = first; row < past && (eight & CHASSIS_OF_EIGHT) != 0; row++) {
-            if (!(e->flags[row] & ENTITY_FLAG_CHASSIS))
-                continue;
-            sprung = true;
-            if (e->state[row] != ENTITY_ACTIVE || !overturned(e->pitch[row], e->roll[row])) {
-                fall(context, row);
-                continue;
-            }
-            damage_overturn(context, row);
-            tell_ground(context, row);
-        }
+    const struct entity *e = &context->next->entities.row[row];
+    if (!(e->flags & ENTITY_FLAG_CHASSIS))
+        return;
+    if (e->state != ENTITY_ACTIVE || !overturned(e->pitch, e->roll)) {
+        fall(context, row);
+        return;
     }
-    return sprung;
+    damage_overturn(context, row);
+    tell_ground(context, row);
 }
 
 void damage_overturned(struct response_context *context)
 {
-    uint32_t used = context->next->head->used;
-    for (uint32_t first = 0; first < used; first += CHECKSUM_ROWS) {
-        uint32_t block = first / CHECKSUM_ROWS;
-        uint64_t hash = context->next->hashes[block].column[COLUMN_flags];
-        if (context->writer.changed[block] & COLUMN_BIT(flags))
-            hash = 0; /* it is that of other flags */
-        if (hash != 0 && context->unsprung[block] == hash)
-            continue;
-        bool sprung = overturned_rows(context, first,
-                                      used - first < CHECKSUM_ROWS ? used : first + CHECKSUM_ROWS);
-        context->unsprung[block] = sprung ? 0 : hash;
+    const uint64_t *responses = context->writer.written;
+    for (uint32_t w = 0; w * 64 < context->next->head->used; w++) {
+        for (uint64_t left = context->sprung[w] | responses[w]; left != 0; left &= left - 1)
+            overturn_or_fall(context, w * 64 + (uint32_t)__builtin_ctzll(left));
     }
 }
 
 void damage_row(struct response_context *context, uint32_t row, double joules, double time)
 {
     const struct entities *e = &context->next->entities;
-    const struct kind *kind = &context->world->kinds[e->kind[row]];
-    if (e->state[row] != ENTITY_ACTIVE || !(joules > 0.0) || remote_is(e, row))
+    const struct kind *kind = &context->world->kinds[e->row[row].kind];
+    if (e->row[row].state != ENTITY_ACTIVE || !(joules > 0.0) || remote_is(e, row))
         return; /* the owner of a remote entity decides what a hit does to it */
-    table_set_harm_j(&context->writer, row, e->harm_j[row] + joules);
-    enum damage damage = level(e->harm_j[row] / kind->resistance_j);
+    table_set_harm_j(&context->writer, row, e->row[row].harm_j + joules);
+    enum damage damage = level(e->row[row].harm_j / kind->resistance_j);
     if (damage == DAMAGE_DESTROYED)
         damage_destroy(context, row, time);
-    else if (damage > e->damage[row])
+    else if (damage > e->row[row].damage)
         set_damage(context, row, damage);
 }
 

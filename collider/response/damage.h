@@ -21,8 +21,8 @@ void damage_destroy(struct response_context *context, uint32_t row, double time)
 void damage_overturn(struct response_context *context, uint32_t row);
 
 /* Does so with all vehicles that have rolled over on their springs (mover/motion/chassis.h), and
- * gives those that landed hard their damage. Blocks whose flags are those of a frame in which none
- * was on its springs are passed over: context->unsprung keeps the hash of these flags, 0: none. */
+ * gives those that landed hard their damage. Looks at rows that were written in this frame: the
+ * others are as they were. */
 void damage_overturned(struct response_context *context);
 
 /* These damage a fixed object, and two return its damage. It is never repaired: the hardest impact

@@ -105,10 +105,10 @@ static bool touches(const struct response_context *context, uint32_t row,
                     const struct debris_area *area, struct debris_contact *touch)
 {
     const struct entities *e = &context->next->entities;
-    const struct kind *kind = &context->world->kinds[e->kind[row]];
-    struct vec3 point = debris_area_nearest(area, e->x[row], e->z[row]);
-    double sine, cosine, dx = point.x - e->x[row], dz = point.z - e->z[row];
-    maths_sincos(e->heading[row], &sine, &cosine);
+    const struct kind *kind = &context->world->kinds[e->row[row].kind];
+    struct vec3 point = debris_area_nearest(area, e->row[row].x, e->row[row].z);
+    double sine, cosine, dx = point.x - e->row[row].x, dz = point.z - e->row[row].z;
+    maths_sincos(e->row[row].heading, &sine, &cosine);
     double distance = sqrt(dx * dx + dz * dz);
     if (fabs(dx * sine - dz * cosine) > 0.5 * kind->length_m + area->radius_m ||
         fabs(dx * cosine + dz * sine) > 0.5 * kind->width_m + area->radius_m)
@@ -134,13 +134,14 @@ static void push(struct response_context *context, struct debris *debris, uint32
                  const struct debris_contact *touch)
 {
     const struct entities *e = &context->next->entities;
-    double mass = (double)debris->mass_kg, vehicle = context->world->kinds[e->kind[row]].mass_kg;
+    double mass = (double)debris->mass_kg,
+           vehicle = context->world->kinds[e->row[row].kind].mass_kg;
     double turn = turning(debris, touch);
     double lever = touch->arm_x * touch->normal_z - touch->arm_z * touch->normal_x;
-    double closing = (e->vx[row] - (double)debris->vx) * touch->normal_x +
-                     (e->vz[row] - (double)debris->vz) * touch->normal_z -
+    double closing = (e->row[row].vx - (double)debris->vx) * touch->normal_x +
+                     (e->row[row].vz - (double)debris->vz) * touch->normal_z -
                      lever * (double)debris->spin_rps;
-    bool held = fabs(e->vx[row]) < LEAST_MPS && fabs(e->vz[row]) < LEAST_MPS;
+    bool held = fabs(e->row[row].vx) < LEAST_MPS && fabs(e->row[row].vz) < LEAST_MPS;
     if (!(closing > 0.0))
         return;
     double gives = 1.0 / mass + lever * turn + (held ? 0.0 : 1.0 / vehicle);
@@ -151,16 +152,16 @@ static void push(struct response_context *context, struct debris *debris, uint32
     debris->spin_rps += (float)(impulse * turn);
     if (held)
         return;
-    table_set_vx(&context->writer, row, e->vx[row] - impulse / vehicle * touch->normal_x);
-    table_set_vz(&context->writer, row, e->vz[row] - impulse / vehicle * touch->normal_z);
+    table_set_vx(&context->writer, row, e->row[row].vx - impulse / vehicle * touch->normal_x);
+    table_set_vz(&context->writer, row, e->row[row].vz - impulse / vehicle * touch->normal_z);
 }
 
 static bool can_push(const struct response_context *context, uint32_t row, double height_m)
 {
     const struct entities *e = &context->next->entities;
-    return e->state[row] == ENTITY_ACTIVE &&
-           context->world->kinds[e->kind[row]].domain == DOMAIN_LAND &&
-           fabs(e->y[row] - height_m) < HIGH_M;
+    return e->row[row].state == ENTITY_ACTIVE &&
+           context->world->kinds[e->row[row].kind].domain == DOMAIN_LAND &&
+           fabs(e->row[row].y - height_m) < HIGH_M;
 }
 
 static void push_by_all(struct response_context *context, struct debris *debris)

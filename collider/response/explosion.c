@@ -91,8 +91,8 @@ static bool overturns(const struct response_context *context, uint32_t row, cons
 {
     const struct entities *e = &context->next->entities;
     struct vec3 own = rotation_back(turn, (struct vec3){impulse_ns.x, 0.0, impulse_ns.z});
-    return e->state[row] == ENTITY_ACTIVE &&
-           explosion_impulse_overturns(&context->world->kinds[e->kind[row]], own.x, own.z);
+    return e->row[row].state == ENTITY_ACTIVE &&
+           explosion_impulse_overturns(&context->world->kinds[e->row[row].kind], own.x, own.z);
 }
 
 static void note_pushed(struct charges *charges, uint32_t row)
@@ -120,7 +120,7 @@ static void push(struct response_context *context, const struct charge *charge, 
                  double time)
 {
     struct charges *charges = context->charges;
-    const struct kind *kind = &context->world->kinds[context->next->entities.kind[row]];
+    const struct kind *kind = &context->world->kinds[context->next->entities.row[row].kind];
     struct explosion_impulse_target target = {.kind = kind};
     if (!context->functions->joint || row == charge->row)
         return;
@@ -141,7 +141,7 @@ static void hurt(struct response_context *context, const struct charge *charge, 
                  uint32_t row, double distance)
 {
     const struct entities *e = &context->next->entities;
-    if (e->state[row] != ENTITY_ACTIVE)
+    if (e->row[row].state != ENTITY_ACTIVE)
         return;
     /* The effect of a direct hit has been applied already; here that body is treated like any
      * other. */
@@ -149,7 +149,8 @@ static void hurt(struct response_context *context, const struct charge *charge, 
     /* A stray round of one's own side is no attack. */
     uint32_t owner = charge->owner_slot;
     bool known = entities_alive(e, owner, charge->owner_id);
-    bool friend = known && e->force[owner] != FORCE_NEUTRAL && e->force[owner] == e->force[row];
+    bool friend =
+        known && e->row[owner].force != FORCE_NEUTRAL && e->row[owner].force == e->row[row].force;
     if (joules > 0.0 && known && owner != row && !friend)
         table_set_threat(&context->writer, row, owner, charge->owner_id);
     damage_row(context, row, joules, charge->time);
@@ -160,12 +161,12 @@ static void explosion_row(struct response_context *context, const struct charge 
 {
     const struct entities *e = &context->next->entities;
     const struct path *path = &context->path[row];
-    if (e->state[row] == ENTITY_FREE || e->behaviour[row] == BEHAVIOUR_FLIGHT)
+    if (e->row[row].state == ENTITY_FREE || e->row[row].behaviour == BEHAVIOUR_FLIGHT)
         return;
     body_motion_require(context->motion, row);
     double time = maths_max(charge->time, path->since);
     double distance = distance_to(charge->point, path_at(path, time),
-                                  context->world->kinds[e->kind[row]].radius_m);
+                                  context->world->kinds[e->row[row].kind].radius_m);
     hurt(context, charge, radius, row, distance);
     if (distance < radius)
         push(context, charge, row, time);
@@ -216,10 +217,10 @@ static void alarm(struct response_context *context, const struct charge *charge,
     for (uint32_t n = 0; n < near->count; n++) {
         uint32_t row = near->pair[n].a;
         struct vec3 off = vec3_sub(entities_position(e, row), charge->point);
-        if (e->state[row] == ENTITY_ACTIVE && e->behaviour[row] != BEHAVIOUR_FLIGHT &&
-            e->behaviour[row] != BEHAVIOUR_HOLD && e->id[row] != charge->owner_id &&
-            !(e->flags[row] & ENTITY_FLAG_BURST) && vec3_dot(off, off) < reach_m * reach_m)
-            table_set_flags(&context->writer, row, e->flags[row] | ENTITY_FLAG_BURST);
+        if (e->row[row].state == ENTITY_ACTIVE && e->row[row].behaviour != BEHAVIOUR_FLIGHT &&
+            e->row[row].behaviour != BEHAVIOUR_HOLD && e->row[row].id != charge->owner_id &&
+            !(e->row[row].flags & ENTITY_FLAG_BURST) && vec3_dot(off, off) < reach_m * reach_m)
+            table_set_flags(&context->writer, row, e->row[row].flags | ENTITY_FLAG_BURST);
     }
     near->count = 0;
 }
@@ -269,7 +270,7 @@ static void undermine(struct response_context *context, const struct crater *cra
     near->count = 0;
     find_rows(context, &box);
     for (uint32_t i = 0; i < near->count; i++) {
-        if (e->state[near->pair[i].a] == ENTITY_WRECK)
+        if (e->row[near->pair[i].a].state == ENTITY_WRECK)
             table_set_until_tick(&context->writer, near->pair[i].a, 0);
     }
 }
@@ -318,7 +319,7 @@ static double luck_of(const struct response_context *context, uint32_t round,
                       enum random_purpose purpose)
 {
     return random_unit(context->world->params->seed, context->next->head->tick,
-                       context->next->entities.id[round], purpose);
+                       context->next->entities.row[round].id, purpose);
 }
 
 /* The way that a round has flown, by its time and the mean of its speeds at the muzzle and now. */
@@ -326,9 +327,9 @@ static double flown_of(const struct response_context *context, uint32_t round, d
                        double time)
 {
     const struct entities *e = &context->next->entities;
-    uint32_t since = (uint32_t)context->next->head->tick - e->born_tick[round];
+    uint32_t since = (uint32_t)context->next->head->tick - e->row[round].born_tick;
     double frames = (double)since - 1.0 + time;
-    double first = context->world->kinds[e->kind[round]].max_speed_mps;
+    double first = context->world->kinds[e->row[round].kind].max_speed_mps;
     return maths_max(frames, 0.0) * context->world->params->dt_s * 0.5 * (first + speed_mps);
 }
 
@@ -338,11 +339,11 @@ static double penetrate(struct response_context *context, uint32_t round, uint32
                         double joules)
 {
     const struct entities *e = &context->next->entities;
-    const struct kind *vehicle = &context->world->kinds[e->kind[struck]];
+    const struct kind *vehicle = &context->world->kinds[e->row[struck].kind];
     double luck = luck_of(context, round, RANDOM_PENETRATED);
     if (armour_loss_of(luck) == ARMOUR_LOSS_FIRE && armour_disables(vehicle, joules) &&
-        e->state[struck] == ENTITY_ACTIVE && e->damage[struck] < DAMAGE_MED)
-        table_set_flags(&context->writer, struck, e->flags[struck] | ENTITY_FLAG_DISARMED);
+        e->row[struck].state == ENTITY_ACTIVE && e->row[struck].damage < DAMAGE_MED)
+        table_set_flags(&context->writer, struck, e->row[struck].flags | ENTITY_FLAG_DISARMED);
     return armour_harm(vehicle, joules, luck);
 }
 
@@ -352,8 +353,8 @@ static bool hit_armour(struct response_context *context, uint32_t round, uint32_
                        struct vec3 velocity, struct vec3 normal, double time)
 {
     const struct entities *e = &context->next->entities;
-    const struct kind *kind = &context->world->kinds[e->kind[round]];
-    const struct kind *vehicle = &context->world->kinds[e->kind[struck]];
+    const struct kind *kind = &context->world->kinds[e->row[round].kind];
+    const struct kind *vehicle = &context->world->kinds[e->row[struck].kind];
     struct mat3 turn = rotation_matrix(body_motion_orientation(context->motion, struck, time));
     double speed = vec3_length(velocity), joules = energy_of(kind, velocity);
     struct vec3 flight = vec3_scale(velocity, 1.0 / maths_max(speed, 1e-9));
@@ -381,12 +382,12 @@ static bool hit(struct response_context *context, uint32_t round, uint32_t struc
                 struct vec3 normal, double time)
 {
     const struct entities *e = &context->next->entities;
-    const struct kind *kind = &context->world->kinds[e->kind[round]];
+    const struct kind *kind = &context->world->kinds[e->row[round].kind];
     struct vec3 velocity = entities_velocity(e, round);
     if (what == STRUCK_VEHICLE)
         return hit_armour(context, round, struck, vec3_sub(velocity, entities_velocity(e, struck)),
                           normal, time);
-    double inside = e->flags[round] == FUZE_DELAY ? INSIDE : 1.0;
+    double inside = e->row[round].flags == FUZE_DELAY ? INSIDE : 1.0;
     if (what == STRUCK_FIXED)
         damage_fell_object(context, struck & ~PAIR_FIXED, inside * energy_of(kind, velocity),
                            velocity);
@@ -398,7 +399,8 @@ static struct event_party party_struck(const struct response_context *context, u
 {
     const struct entities *e = &context->next->entities;
     if (what == STRUCK_VEHICLE)
-        return (struct event_party){e->id[struck], e->kind[struck], 0, e->damage[struck]};
+        return (struct event_party){e->row[struck].id, e->row[struck].kind, 0,
+                                    e->row[struck].damage};
     if (what == STRUCK_FIXED) {
         uint32_t object = struck & ~PAIR_FIXED;
         return (struct event_party){object + 1, context->world->fixed[object].kind, 1,
@@ -412,17 +414,17 @@ void explosion_munition(struct response_context *context, uint32_t row, uint32_t
 {
     const struct entities *e = &context->next->entities;
     struct state_head *head = context->next->head;
-    const struct kind *kind = &context->world->kinds[e->kind[row]];
+    const struct kind *kind = &context->world->kinds[e->row[row].kind];
     struct vec3 point = path_at(&context->path[row], time);
     enum struck what = struck_of(context, struck, point);
     struct charge charge = {.point = point,
                             .time = time,
                             .explosive_kg = kind->explosive_kg,
-                            .owner_slot = e->owner_slot[row],
-                            .owner_id = e->owner_id[row],
+                            .owner_slot = e->row[row].owner_slot,
+                            .owner_id = e->row[row].owner_id,
                             .row = SLOT_NONE};
     struct event *event = event_writer_event(&context->events, EVENT_DETONATION);
-    struct event_party munition = {e->id[row], e->kind[row], 0, DAMAGE_DESTROYED};
+    struct event_party munition = {e->row[row].id, e->row[row].kind, 0, DAMAGE_DESTROYED};
 
     head->tally.detonations++;
     if (hit(context, row, struck, what, normal, time))
@@ -435,9 +437,9 @@ void explosion_munition(struct response_context *context, uint32_t row, uint32_t
         event->detonation.point[2] = point.z;
         event->detonation.explosive_kg = (float)charge.explosive_kg;
         event->detonation.struck = what;
-        event->detonation.remote = e->order[row] == BEHAVIOUR_REMOTE;
+        event->detonation.remote = e->row[row].order == BEHAVIOUR_REMOTE;
     }
-    bool buried = what == STRUCK_GROUND && e->flags[row] == FUZE_DELAY;
+    bool buried = what == STRUCK_GROUND && e->row[row].flags == FUZE_DELAY;
     if (what == STRUCK_GROUND && kind->craters)
         dig(context, point, kind->explosive_kg * (buried ? BURIED_CRATER : 1.0));
     charge.explosive_kg *= buried ? BURIED_BLAST : 1.0;

@@ -11,7 +11,7 @@ void ground_event_write(struct response_context *context, uint32_t row,
     if (!event)
         return;
     struct event_collision *collision = &event->collision;
-    collision->a = (struct event_party){e->id[row], e->kind[row], 0, e->damage[row]};
+    collision->a = (struct event_party){e->row[row].id, e->row[row].kind, 0, e->row[row].damage};
     collision->b = (struct event_party){0, KIND_NONE, 1, DAMAGE_NONE};
     collision->point[0] = strike->at.x;
     collision->point[1] = strike->at.y;

@@ -23,7 +23,7 @@ static void dent(struct response_context *context, uint32_t row, const struct im
         return;
     }
     struct dent *entry = &next->dents[head->dent_count++];
-    *entry = (struct dent){.id = next->entities.id[row],
+    *entry = (struct dent){.id = next->entities.row[row].id,
                            .tick = (uint32_t)head->tick,
                            .plastic_m = (float)deformation->plastic_m,
                            .elastic_m = (float)deformation->elastic_m};
@@ -46,7 +46,7 @@ static struct deformation deform(struct response_context *context, uint32_t row,
                                  const struct impact *impact, double side, double joules,
                                  const struct contact_spring_impact *spring)
 {
-    const struct kind *kind = &context->world->kinds[context->next->entities.kind[row]];
+    const struct kind *kind = &context->world->kinds[context->next->entities.row[row].kind];
     struct deformation deformation = deformation_of(kind, joules);
     if (spring)
         dent_of_spring(kind, spring, &deformation);
@@ -68,9 +68,9 @@ void impact_damage_vehicle(struct response_context *context, uint32_t row,
                            const struct contact_spring_impact *spring)
 {
     const struct entities *e = &context->next->entities;
-    const struct kind *kind = &context->world->kinds[e->kind[row]];
+    const struct kind *kind = &context->world->kinds[e->row[row].kind];
     struct deformation deformation =
         deform(context, row, impact, side, joules * IMPACT_HARM_OUTSIDE, spring);
     double lost = deformation.harm_j / IMPACT_HARM_OUTSIDE;
-    damage_row(context, row, impact_harm(kind, e->harm_j[row], lost), impact->time);
+    damage_row(context, row, impact_harm(kind, e->row[row].harm_j, lost), impact->time);
 }

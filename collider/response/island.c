@@ -65,11 +65,12 @@ static struct solver_body solve_body_of(const struct response_context *context,
 {
     const struct entities *e = &context->next->entities;
     uint32_t row = body->row;
-    const struct mass_properties inertia = mass_properties_of(&context->world->kinds[e->kind[row]]);
+    const struct mass_properties inertia =
+        mass_properties_of(&context->world->kinds[e->row[row].kind]);
     struct mat3 turn = rotation_matrix(body_motion_orientation(context->motion, row, time));
     double light = 1.0 / inertia.mass_kg;
     body->grounded = path_change_grounded(context, row);
-    body->flies = context->world->kinds[e->kind[row]].domain == DOMAIN_AIR;
+    body->flies = context->world->kinds[e->row[row].kind].domain == DOMAIN_AIR;
     body->arm = rotation_apply(&turn, (struct vec3){0.0, inertia.centre_m, 0.0});
     struct solver_body solve = {
         .centre = vec3_add(path_at(&context->path[row], time), body->arm),

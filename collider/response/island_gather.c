@@ -145,10 +145,10 @@ static void take(struct response_context *context, const struct contact *contact
 static bool same_moment(const struct response_context *context, const struct contact *next,
                         double toi)
 {
-    const uint8_t *behaviour = context->next->entities.behaviour;
+    const struct entity *row = context->next->entities.row;
     return next && next->impact.toi <= toi + CONTACT_TIE && next->b < CONTACT_AIR &&
-           behaviour[next->a] != BEHAVIOUR_FLIGHT &&
-           (next->b & PAIR_FIXED || behaviour[next->b] != BEHAVIOUR_FLIGHT);
+           row[next->a].behaviour != BEHAVIOUR_FLIGHT &&
+           (next->b & PAIR_FIXED || row[next->b].behaviour != BEHAVIOUR_FLIGHT);
 }
 
 static void gather(struct response_context *context, const struct contact *first)

@@ -34,7 +34,7 @@ static bool keeps_to_ground(const struct response_context *context, uint32_t row
     if (vec3_dot(velocity, velocity) < SURELY_SLOW_MPS * SURELY_SLOW_MPS)
         return true;
     struct vec3 normal = terrain_normal(&context->world->terrain, context->input.detect.craters,
-                                        e->x[row], e->z[row]);
+                                        e->row[row].x, e->row[row].z);
     return fabs(vec3_dot(velocity, normal)) <= LIES_MPS;
 }
 
@@ -45,12 +45,12 @@ static bool lies(const struct response_context *context, uint32_t row)
     const struct vec3 at = entities_position(e, row);
     struct body_points points;
     if (!keeps_to_ground(context, row) ||
-        vec3_length((struct vec3){e->spin_x[row], 0.0, e->spin_z[row]}) > LIES_RPS)
+        vec3_length((struct vec3){e->row[row].spin_x, 0.0, e->row[row].spin_z}) > LIES_RPS)
         return false;
-    body_points_of(context->world, e->kind[row], &points);
-    return body_points_clearance(context->world, craters, &points, at,
-                                 rotation_of(e->heading[row], e->pitch[row], e->roll[row])) <=
-           LIES_M;
+    body_points_of(context->world, e->row[row].kind, &points);
+    return body_points_clearance(
+               context->world, craters, &points, at,
+               rotation_of(e->row[row].heading, e->row[row].pitch, e->row[row].roll)) <= LIES_M;
 }
 
 static bool is_upright(double pitch_rad, double roll_rad)
@@ -65,7 +65,7 @@ static bool stands(const struct response_context *context, uint32_t row)
     const struct entities *e = &context->next->entities;
     const struct crater_index *craters = context->input.detect.craters;
     const struct vec3 at = entities_position(e, row);
-    return is_upright(e->pitch[row], e->roll[row]) && keeps_to_ground(context, row) &&
+    return is_upright(e->row[row].pitch, e->row[row].roll) && keeps_to_ground(context, row) &&
            at.y - terrain_height(&context->world->terrain, craters, at.x, at.z) < STANDS_M;
 }
 
@@ -74,43 +74,43 @@ static bool stands(const struct response_context *context, uint32_t row)
 static bool has_landed(const struct response_context *context, uint32_t row)
 {
     const struct entities *e = &context->next->entities;
-    return context->world->kinds[e->kind[row]].domain == DOMAIN_AIR &&
-           (e->flags[row] & ENTITY_FLAG_LANDED) != 0;
+    return context->world->kinds[e->row[row].kind].domain == DOMAIN_AIR &&
+           (e->row[row].flags & ENTITY_FLAG_LANDED) != 0;
 }
 
 bool path_change_grounded(const struct response_context *context, uint32_t row)
 {
     const struct entities *e = &context->next->entities;
-    enum domain domain = (enum domain)context->world->kinds[e->kind[row]].domain;
+    enum domain domain = (enum domain)context->world->kinds[e->row[row].kind].domain;
     if (domain == DOMAIN_SEA)
         return true;
-    if (e->state[row] == ENTITY_WRECK || has_landed(context, row))
+    if (e->row[row].state == ENTITY_WRECK || has_landed(context, row))
         return lies(context, row);
     return domain == DOMAIN_LAND &&
-           (!(e->flags[row] & ENTITY_FLAG_CHASSIS) || stands(context, row));
+           (!(e->row[row].flags & ENTITY_FLAG_CHASSIS) || stands(context, row));
 }
 
 /* A land vehicle that is pushed moves on as a body on its springs. */
 static void disturb(struct response_context *context, uint32_t row)
 {
     const struct entities *e = &context->next->entities;
-    if (context->world->kinds[e->kind[row]].domain != DOMAIN_LAND ||
-        e->state[row] != ENTITY_ACTIVE || e->behaviour[row] == BEHAVIOUR_HOLD)
+    if (context->world->kinds[e->row[row].kind].domain != DOMAIN_LAND ||
+        e->row[row].state != ENTITY_ACTIVE || e->row[row].behaviour == BEHAVIOUR_HOLD)
         return;
-    table_set_flags(&context->writer, row, e->flags[row] | ENTITY_FLAG_CHASSIS);
+    table_set_flags(&context->writer, row, e->row[row].flags | ENTITY_FLAG_CHASSIS);
     table_set_jolt_tick(&context->writer, row, (uint32_t)context->next->head->tick);
 }
 
 static struct vec3 own_spin(const struct response_context *context, uint32_t row)
 {
     const struct entities *e = &context->next->entities;
-    return (struct vec3){e->spin_x[row], e->spin_y[row], e->spin_z[row]};
+    return (struct vec3){e->row[row].spin_x, e->row[row].spin_y, e->row[row].spin_z};
 }
 
 static struct vec3 moment_of(const struct response_context *context, uint32_t row)
 {
     const struct entities *e = &context->next->entities;
-    return mass_properties_of(&context->world->kinds[e->kind[row]]).moment;
+    return mass_properties_of(&context->world->kinds[e->row[row].kind]).moment;
 }
 
 /* Returns the rotation about the vertical of a row on the ground [rad/s]. The mover turned it by
@@ -120,16 +120,16 @@ static double yaw_of(const struct response_context *context, uint32_t row)
     const struct body_motion *motion = context->motion;
     const struct entities *w = &motion->before, *n = &motion->next->entities;
     double dt_s = world_dt_s(context->world);
-    if (n->state[row] == ENTITY_WRECK || has_landed(context, row))
-        return n->spin_y[row]; /* nobody steers it */
+    if (n->row[row].state == ENTITY_WRECK || has_landed(context, row))
+        return n->row[row].spin_y; /* nobody steers it */
     if (motion->change[row] != 0)
-        return n->spin_y[row] + body_motion_rotation(motion, row).driven_rps;
+        return n->row[row].spin_y + body_motion_rotation(motion, row).driven_rps;
     if (!body_motion_old(motion, row))
-        return n->spin_y[row];
-    double by_spin = -w->spin_y[row] * dt_s;
+        return n->row[row].spin_y;
+    double by_spin = -w->row[row].spin_y * dt_s;
     if (fabs(by_spin) <= HALF_PI)
         by_spin = 0.0;
-    double turn = by_spin + maths_wrap_half(n->heading[row] - w->heading[row] - by_spin);
+    double turn = by_spin + maths_wrap_half(n->row[row].heading - w->row[row].heading - by_spin);
     return -turn / dt_s - motion->parting_rps[row];
 }
 
@@ -146,9 +146,9 @@ static struct vec3 rolling_velocity(const struct response_context *context, uint
                                     double time)
 {
     const struct entities *e = &context->next->entities;
-    const struct kind *kind = &context->world->kinds[e->kind[row]];
+    const struct kind *kind = &context->world->kinds[e->row[row].kind];
     struct vec3 up = {0.0, mass_properties_of(kind).centre_m, 0.0};
-    struct vec3 spin = {e->spin_x[row], 0.0, e->spin_z[row]};
+    struct vec3 spin = {e->row[row].spin_x, 0.0, e->row[row].spin_z};
     if (vec3_dot(spin, spin) == 0.0 || !path_change_grounded(context, row))
         return (struct vec3){0.0, 0.0, 0.0};
     struct mat3 axes = rotation_matrix(body_motion_orientation(context->motion, row, time));
@@ -178,7 +178,7 @@ struct vec3 path_change_spin(const struct response_context *context, uint32_t ro
 /* Returns the rotation by the driver, in addition to the row's spin [rad/s]. */
 static double driven(const struct response_context *context, uint32_t row, bool grounded)
 {
-    return grounded ? yaw_of(context, row) - context->next->entities.spin_y[row] : 0.0;
+    return grounded ? yaw_of(context, row) - context->next->entities.row[row].spin_y : 0.0;
 }
 
 /* Ends the path at the world's edge. It may begin beyond it, if the body was pushed out of
@@ -204,7 +204,7 @@ static void wake(struct response_context *context, uint32_t row, struct vec3 to)
 {
     const struct entities *e = &context->next->entities;
     struct vec3 off = vec3_sub(to, entities_position(e, row));
-    if (e->state[row] == ENTITY_WRECK && vec3_dot(off, off) > 0.0)
+    if (e->row[row].state == ENTITY_WRECK && vec3_dot(off, off) > 0.0)
         table_set_until_tick(&context->writer, row, 0);
 }
 

@@ -88,10 +88,10 @@ struct impact response_impact(const struct response_context *context, const stru
         other_heading = fixed_heading(&context->world->fixed[contact->b & ~PAIR_FIXED]);
     } else {
         vb = velocity_at(context, contact->b, &contact->impact);
-        other_heading = e->heading[contact->b];
+        other_heading = e->row[contact->b].heading;
     }
     impact.closing_mps = maths_max(0.0, vec3_dot(vec3_sub(va, vb), impact.normal));
-    impact.angle_rad = maths_wrap_turn(other_heading - e->heading[contact->a]);
+    impact.angle_rad = maths_wrap_turn(other_heading - e->row[contact->a].heading);
     return impact;
 }
 
@@ -103,7 +103,7 @@ static struct event_party party_of(const struct response_context *context, uint3
         return (struct event_party){object + 1, context->world->fixed[object].kind, 1,
                                     (uint8_t)fallen_damage(context->next->fixed_damage[object])};
     }
-    return (struct event_party){e->id[body], e->kind[body], 0, e->damage[body]};
+    return (struct event_party){e->row[body].id, e->row[body].kind, 0, e->row[body].damage};
 }
 
 static void put(double to[3], struct vec3 from)
@@ -231,8 +231,8 @@ static void end_approach(struct response_context *context, const struct impact *
     const struct entities *e = &context->next->entities;
     const struct kind *kinds = context->world->kinds;
     bool fixed = impact->b & PAIR_FIXED;
-    double ma = kinds[e->kind[impact->a]].mass_kg,
-           mb = fixed ? 0.0 : kinds[e->kind[impact->b]].mass_kg;
+    double ma = kinds[e->row[impact->a].kind].mass_kg,
+           mb = fixed ? 0.0 : kinds[e->row[impact->b].kind].mass_kg;
     double share = fixed ? 1.0 : mb / (ma + mb);
     const struct {
         uint32_t row;
@@ -307,7 +307,7 @@ static void crash(struct response_context *context, const struct contact *contac
 
 static bool is_round(const struct response_context *context, uint32_t body)
 {
-    return body < PAIR_FIXED && context->next->entities.behaviour[body] == BEHAVIOUR_FLIGHT;
+    return body < PAIR_FIXED && context->next->entities.row[body].behaviour == BEHAVIOUR_FLIGHT;
 }
 
 void response_contact(struct response_context *context, const struct contact *contact)

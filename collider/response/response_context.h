@@ -24,7 +24,9 @@ struct response_context {
     struct event_writer events;
     struct charges *charges;
     struct island *island;
-    uint64_t *unsprung;         /* [CHECKSUM_BLOCKS] of damage_overturned() */
+    /* A bit for each row that the mover wrote in this frame, for each of these that is on its
+     * springs, and that holds another body than in the committed frame. */
+    const uint64_t *moved, *sprung, *fresh;
     struct table_writer writer; /* every change of next's rows goes through this */
     bool contacts_sleep;        /* of sleeping_contacts_all() */
     uint32_t begun;             /* contacts that began in this frame */

@@ -22,7 +22,7 @@
 
 static const struct kind *kind_of(const struct response_context *context, uint32_t row)
 {
-    return &context->world->kinds[context->next->entities.kind[row]];
+    return &context->world->kinds[context->next->entities.row[row].kind];
 }
 
 static bool severe(const struct kind *a, const struct kind *b, double angle_rad)

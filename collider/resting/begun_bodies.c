@@ -55,13 +55,13 @@ static struct begun_from from_of(const struct body_motion *motion, uint32_t row)
 {
     const struct entities *w = body_motion_before(motion, row), *e = &motion->next->entities;
     return (struct begun_from){.path = motion->path[row],
-                               .angle = {w->heading[row], w->pitch[row], w->roll[row],
-                                         e->heading[row], e->pitch[row], e->roll[row]},
-                               .spin = {w->spin_x[row], w->spin_y[row], w->spin_z[row]},
-                               .turret = w->turret[row],
-                               .gun = w->gun[row],
-                               .id = e->id[row],
-                               .kind = e->kind[row],
+                               .angle = {w->row[row].heading, w->row[row].pitch, w->row[row].roll,
+                                         e->row[row].heading, e->row[row].pitch, e->row[row].roll},
+                               .spin = {w->row[row].spin_x, w->row[row].spin_y, w->row[row].spin_z},
+                               .turret = w->row[row].turret,
+                               .gun = w->row[row].gun,
+                               .id = e->row[row].id,
+                               .kind = e->row[row].kind,
                                .known = 1};
 }
 

@@ -108,19 +108,19 @@ static bool rocks(const struct response_context *context, uint32_t row)
 {
     const struct entities *e = &context->next->entities;
     struct vec3 velocity = entities_velocity(e, row);
-    double half_m = 0.5 * context->world->kinds[e->kind[row]].length_m;
-    double end_mps = half_m * sqrt(square(e->spin_x[row], e->spin_z[row]));
+    double half_m = 0.5 * context->world->kinds[e->row[row].kind].length_m;
+    double end_mps = half_m * sqrt(square(e->row[row].spin_x, e->row[row].spin_z));
     if (vec3_length(velocity) + end_mps <= ROCKS_MPS)
         return false; /* the common case */
     struct vec3 normal = terrain_normal(&context->world->terrain, context->input.detect.craters,
-                                        e->x[row], e->z[row]);
+                                        e->row[row].x, e->row[row].z);
     return fabs(vec3_dot(velocity, normal)) + end_mps > ROCKS_MPS;
 }
 
 static bool tips(const struct response_context *context, uint32_t row)
 {
     const struct entities *w = &context->motion->before, *e = &context->next->entities;
-    double x = e->spin_x[row] - w->spin_x[row], z = e->spin_z[row] - w->spin_z[row];
+    double x = e->row[row].spin_x - w->row[row].spin_x, z = e->row[row].spin_z - w->row[row].spin_z;
     double most = TIPS_RPS2 * world_dt_s(context->world);
     return square(x, z) > most * most || rocks(context, row);
 }
@@ -128,14 +128,14 @@ static bool tips(const struct response_context *context, uint32_t row)
 bool contact_groups_flies(const struct response_context *context, uint32_t row)
 {
     const struct entities *e = &context->next->entities;
-    return e->state[row] == ENTITY_ACTIVE && e->behaviour[row] != BEHAVIOUR_FLIGHT &&
-           !(e->flags[row] & ENTITY_FLAG_LANDED) &&
-           context->world->kinds[e->kind[row]].domain == DOMAIN_AIR;
+    return e->row[row].state == ENTITY_ACTIVE && e->row[row].behaviour != BEHAVIOUR_FLIGHT &&
+           !(e->row[row].flags & ENTITY_FLAG_LANDED) &&
+           context->world->kinds[e->row[row].kind].domain == DOMAIN_AIR;
 }
 
 bool contact_groups_is_piloted(const struct response_context *context, uint32_t row)
 {
-    return context->next->entities.behaviour[row] != BEHAVIOUR_HOLD &&
+    return context->next->entities.row[row].behaviour != BEHAVIOUR_HOLD &&
            contact_groups_flies(context, row);
 }
 
@@ -144,13 +144,13 @@ bool contact_groups_is_piloted(const struct response_context *context, uint32_t 
 static bool free_anyway(const struct response_context *context, uint32_t row, bool *held)
 {
     const struct entities *e = &context->next->entities;
-    enum domain domain = (enum domain)context->world->kinds[e->kind[row]].domain;
-    bool wreck = e->state[row] == ENTITY_WRECK;
+    enum domain domain = (enum domain)context->world->kinds[e->row[row].kind].domain;
+    bool wreck = e->row[row].state == ENTITY_WRECK;
     *held = false;
     if (contact_groups_is_piloted(context, row))
         return body_motion_old(context->motion, row);
     if (domain == DOMAIN_SEA || !body_motion_old(context->motion, row) ||
-        !(wreck || e->flags[row] & (ENTITY_FLAG_CHASSIS | ENTITY_FLAG_LANDED)))
+        !(wreck || e->row[row].flags & (ENTITY_FLAG_CHASSIS | ENTITY_FLAG_LANDED)))
         return false;
     *held = true;
     return wreck && tips(context, row);
@@ -231,7 +231,7 @@ static bool is_there(const struct response_context *context, uint32_t row, uint3
 static void wake_wreck(struct response_context *context, uint32_t row)
 {
     const struct entities *e = &context->next->entities;
-    if (e->state[row] == ENTITY_WRECK && e->until_tick[row] != 0)
+    if (e->row[row].state == ENTITY_WRECK && e->row[row].until_tick != 0)
         table_set_until_tick(&context->writer, row, 0);
 }
 
@@ -460,7 +460,7 @@ static void add_pairs_of(struct contact_groups *groups, struct response_context 
                           ? contact_groups_is_wall(context, other & ~PAIR_FIXED)
                           : !(other < row && is_new(context, other)) &&
                                 path_change_grounded(context, other) &&
-                                context->next->entities.behaviour[other] != BEHAVIOUR_FLIGHT;
+                                context->next->entities.row[other].behaviour != BEHAVIOUR_FLIGHT;
         if (counts && !contact_table_find(context, pair->a, pair->b))
             contact_groups_add(groups, pair);
     }
@@ -469,29 +469,20 @@ static void add_pairs_of(struct contact_groups *groups, struct response_context 
 /* Which bodies are looked for among those that are new. */
 typedef bool new_body(const struct response_context *context, uint32_t row);
 
-/* Lists the block's bodies that were not there in the committed frame. */
-static void list_new(struct contact_groups *groups, const struct response_context *context,
-                     uint32_t block, new_body *counts)
+/* Lists those of 64 rows whose bodies were not there in the committed frame. */
+static void list_new(struct contact_groups *groups, struct response_context *context,
+                     uint32_t first, uint64_t rows, new_body *counts)
 {
     const struct entities *e = &context->next->entities;
-    uint32_t first = block * CHECKSUM_ROWS, used = context->next->head->used;
-    uint32_t end = used - first < CHECKSUM_ROWS ? used : first + CHECKSUM_ROWS;
-    for (uint32_t row = first; row < end; row++) {
-        if (e->state[row] == ENTITY_FREE || e->behaviour[row] == BEHAVIOUR_FLIGHT ||
+    for (; rows != 0; rows &= rows - 1) {
+        uint32_t row = first + (uint32_t)__builtin_ctzll(rows);
+        if (row >= context->next->head->used)
+            break;
+        if (e->row[row].state == ENTITY_FREE || e->row[row].behaviour == BEHAVIOUR_FLIGHT ||
             !is_new(context, row) || !counts(context, row))
             continue;
         groups->begun[groups->begun_count++] = row;
     }
-}
-
-/* Blocks with the same ids as in the committed frame have no new body, where no other simulator
- * corrects any. In the first frame all are new. */
-static bool may_be_new(const struct response_context *context, uint32_t block)
-{
-    const struct state *committed = context->motion->committed, *next = context->next;
-    return next->head->tick == 1 || context->world->params->remotes_max != 0 ||
-           block >= block_count(committed->head->used) ||
-           committed->hashes[block].column[COLUMN_id] != next->hashes[block].column[COLUMN_id];
 }
 
 /* Lists the bodies that are new and near others. */
@@ -499,12 +490,11 @@ static void list_all_new(struct contact_groups *groups, struct response_context 
                          new_body *counts)
 {
     uint32_t kept = 0;
-    uint32_t blocks = block_count(context->next->head->used);
+    /* In the first frame all are new, and other simulators correct bodies that are not. */
+    bool any = context->next->head->tick == 1 || context->world->params->remotes_max != 0;
     groups->begun_count = 0;
-    for (uint32_t block = 0; block < blocks; block++) {
-        if (may_be_new(context, block))
-            list_new(groups, context, block, counts);
-    }
+    for (uint32_t w = 0; w * 64 < context->next->head->used; w++)
+        list_new(groups, context, w * 64, any ? UINT64_MAX : context->fresh[w], counts);
     broad_phase_expect_queries(context->broad, groups->begun_count);
     contact_queue_find_alone(context->contacts, &context->input, groups->begun,
                              groups->begun_count);

@@ -96,7 +96,7 @@ void crowds_measure(struct crowds *crowds, const struct response_context *contex
     }
     for (uint32_t i = 0; i < crowds->count; i++) {
         uint32_t row = crowds->row[i];
-        const struct kind *kind = &context->world->kinds[context->next->entities.kind[row]];
+        const struct kind *kind = &context->world->kinds[context->next->entities.row[row].kind];
         struct crowds_body *root = &crowds->body[root_of(crowds->body, row)];
         double x, z;
         deep_pair_place(context, row, &x, &z);

@@ -32,7 +32,7 @@ static bool fills_capsule(const struct kind *kind, double up)
 
 void deep_pair_place(const struct response_context *context, uint32_t row, double *x, double *z)
 {
-    double id = context->next->entities.id[row], sine, cosine;
+    double id = context->next->entities.row[row].id, sine, cosine;
     struct vec3 at = context->path[row].at;
     maths_sincos(maths_wrap_turn(GOLDEN_ANGLE * id), &sine, &cosine);
     double far = COINCIDENT_M * sqrt(id);
@@ -44,8 +44,8 @@ double deep_pair_level(const struct response_context *context, uint32_t row)
 {
     const struct entities *e = body_motion_before(context->motion, row);
     double sine, nose, side;
-    maths_sincos(e->pitch[row], &sine, &nose);
-    maths_sincos(e->roll[row], &sine, &side);
+    maths_sincos(e->row[row].pitch, &sine, &nose);
+    maths_sincos(e->row[row].roll, &sine, &side);
     return maths_max(STANDS_UP, nose * side);
 }
 
@@ -54,13 +54,13 @@ struct capsule deep_pair_capsule(const struct response_context *context, uint32_
     const struct entities *e = body_motion_before(context->motion, row);
     const struct kind *kind = contact_impulse_kind(context, row);
     double sine, cosine, nose, side, wide = maths_min(kind->width_m, kind->length_m);
-    maths_sincos(e->pitch[row], &sine, &nose);
-    maths_sincos(e->roll[row], &sine, &side);
+    maths_sincos(e->row[row].pitch, &sine, &nose);
+    maths_sincos(e->row[row].roll, &sine, &side);
     if (!fills_capsule(kind, nose * side))
         return (struct capsule){.radius_m = 0.0};
     double half = 0.5 * DEEP * (kind->length_m - wide) * nose;
     struct capsule capsule = {.radius_m = 0.5 * wide * nose * side};
-    maths_sincos(e->heading[row], &sine, &cosine);
+    maths_sincos(e->row[row].heading, &sine, &cosine);
     capsule.along_x = half * sine;
     capsule.along_z = -half * cosine;
     deep_pair_place(context, row, &capsule.x, &capsule.z);

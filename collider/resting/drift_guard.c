@@ -46,8 +46,8 @@ void drift_guard_free(struct drift_guard *drift)
 bool drift_guard_drifts(const struct response_context *context, uint32_t row)
 {
     const struct entities *e = &context->next->entities;
-    return e->state[row] == ENTITY_ACTIVE && e->behaviour[row] == BEHAVIOUR_HOLD &&
-           context->world->kinds[e->kind[row]].domain == DOMAIN_AIR;
+    return e->row[row].state == ENTITY_ACTIVE && e->row[row].behaviour == BEHAVIOUR_HOLD &&
+           context->world->kinds[e->row[row].kind].domain == DOMAIN_AIR;
 }
 
 bool drift_guard_heeds(const struct response_context *context,
@@ -63,17 +63,17 @@ bool drift_guard_heeds(const struct response_context *context,
 static struct mass_properties mass_of(const struct response_context *context, uint32_t row)
 {
     const struct entities *e = &context->next->entities;
-    return mass_properties_of(&context->world->kinds[e->kind[row]]);
+    return mass_properties_of(&context->world->kinds[e->row[row].kind]);
 }
 
 static struct vec3 spin_of(const struct entities *e, uint32_t row)
 {
-    return (struct vec3){e->spin_x[row], e->spin_y[row], e->spin_z[row]};
+    return (struct vec3){e->row[row].spin_x, e->row[row].spin_y, e->row[row].spin_z};
 }
 
 static struct quat pose_of(const struct entities *e, uint32_t row)
 {
-    return rotation_of(e->heading[row], e->pitch[row], e->roll[row]);
+    return rotation_of(e->row[row].heading, e->row[row].pitch, e->row[row].roll);
 }
 
 /* Returns the angular momentum of the row's rotation [N m s]. */

@@ -91,7 +91,7 @@ static double sphere_of(const struct body_motion *motion, const struct entities 
     if (motion->models)
         return 0.0;
     return side & PAIR_FIXED ? pair_filter_fixed_reach(world, &world->fixed[side & ~PAIR_FIXED])
-                             : world->kinds[e->kind[side]].radius_m;
+                             : world->kinds[e->row[side].kind].radius_m;
 }
 
 static void stand(const struct body_motion *motion, const struct entities *e, uint32_t side,
@@ -117,9 +117,9 @@ static void stand_now(struct end_guard *guard, const struct response_context *co
     stand(context->motion, e, row, stands);
     stands->moved = vec3_sub(entities_position(e, row), entities_position(w, row));
     stands->turned_m =
-        stands->body.bound_m * (fabs(maths_wrap_half(e->heading[row] - w->heading[row])) +
-                                fabs(maths_wrap_half(e->pitch[row] - w->pitch[row])) +
-                                fabs(maths_wrap_half(e->roll[row] - w->roll[row])));
+        stands->body.bound_m * (fabs(maths_wrap_half(e->row[row].heading - w->row[row].heading)) +
+                                fabs(maths_wrap_half(e->row[row].pitch - w->row[row].pitch)) +
+                                fabs(maths_wrap_half(e->row[row].roll - w->row[row].roll)));
 }
 
 /* Returns true if the row stands where its swept path ends, and can only go back in its whole pose
@@ -128,8 +128,9 @@ static bool goes_straight_back(const struct end_guard *guard,
                                const struct response_context *context, uint32_t row)
 {
     struct vec3 drift = guard->drift[row];
-    return context->next->entities.flags[row] & ENTITY_FLAG_CHASSIS && guard->sent_back[row] == 0 &&
-           context->motion->change[row] == 0 && vec3_dot(drift, drift) == 0.0;
+    return context->next->entities.row[row].flags & ENTITY_FLAG_CHASSIS &&
+           guard->sent_back[row] == 0 && context->motion->change[row] == 0 &&
+           vec3_dot(drift, drift) == 0.0;
 }
 
 /* Lists a row of which it has to be found out how it stands at the frame's end. */
@@ -287,9 +288,9 @@ static bool deeper(const struct end_guard *guard, const struct response_context 
 static bool guarded(const struct response_context *context, uint32_t row)
 {
     const struct entities *e = &context->next->entities;
-    return body_motion_old(context->motion, row) && e->state[row] != ENTITY_FREE &&
-           e->behaviour[row] != BEHAVIOUR_FLIGHT &&
-           (e->state[row] == ENTITY_WRECK || e->flags[row] & ENTITY_FLAG_CHASSIS ||
+    return body_motion_old(context->motion, row) && e->row[row].state != ENTITY_FREE &&
+           e->row[row].behaviour != BEHAVIOUR_FLIGHT &&
+           (e->row[row].state == ENTITY_WRECK || e->row[row].flags & ENTITY_FLAG_CHASSIS ||
             contact_groups_is_piloted(context, row) || drift_guard_drifts(context, row) ||
             path_change_grounded(context, row));
 }
@@ -307,11 +308,11 @@ static void look_at(struct end_guard *guard, uint32_t row)
 static void slow_down(struct response_context *context, uint32_t row, double keep)
 {
     const struct entities *e = &context->next->entities;
-    if (e->state[row] == ENTITY_ACTIVE && e->behaviour[row] == BEHAVIOUR_HOLD)
+    if (e->row[row].state == ENTITY_ACTIVE && e->row[row].behaviour == BEHAVIOUR_HOLD)
         return;
-    table_set_vx(&context->writer, row, e->vx[row] * keep);
-    table_set_vz(&context->writer, row, e->vz[row] * keep);
-    table_set_spin_y(&context->writer, row, e->spin_y[row] * keep);
+    table_set_vx(&context->writer, row, e->row[row].vx * keep);
+    table_set_vz(&context->writer, row, e->row[row].vz * keep);
+    table_set_spin_y(&context->writer, row, e->row[row].spin_y * keep);
 }
 
 /* A wreck, and a vehicle on its springs, are rigid bodies: they go back in their whole pose. The
@@ -320,9 +321,9 @@ static void send_body_back(struct response_context *context, uint32_t row, struc
                            double keep)
 {
     const struct entities *w = &context->motion->before, *e = &context->next->entities;
-    double heading = w->heading[row], pitch = w->pitch[row], roll = w->roll[row];
+    double heading = w->row[row].heading, pitch = w->row[row].pitch, roll = w->row[row].roll;
     if (keep > 0.0) {
-        struct quat to = rotation_of(e->heading[row], e->pitch[row], e->roll[row]);
+        struct quat to = rotation_of(e->row[row].heading, e->row[row].pitch, e->row[row].roll);
         rotation_angles(rotation_between(rotation_of(heading, pitch, roll), to, keep), &heading,
                         &pitch, &roll);
     }
@@ -335,9 +336,9 @@ static void send_body_back(struct response_context *context, uint32_t row, struc
     if (contact_groups_is_piloted(context, row))
         return;
     table_set_velocity(&context->writer, row, vec3_scale(entities_velocity(e, row), keep));
-    table_set_spin(
-        &context->writer, row,
-        (struct vec3){e->spin_x[row] * keep, e->spin_y[row] * keep, e->spin_z[row] * keep});
+    table_set_spin(&context->writer, row,
+                   (struct vec3){e->row[row].spin_x * keep, e->row[row].spin_y * keep,
+                                 e->row[row].spin_z * keep});
 }
 
 /* Sends a row back on its way from where it began the frame. */
@@ -360,14 +361,14 @@ static void send_back(struct end_guard *guard, struct response_context *context,
     }
     struct vec3 from = entities_position(w, row), to = entities_position(e, row);
     held_rest_keep_springs(context, row);
-    if (e->state[row] == ENTITY_WRECK || e->flags[row] & ENTITY_FLAG_CHASSIS ||
+    if (e->row[row].state == ENTITY_WRECK || e->row[row].flags & ENTITY_FLAG_CHASSIS ||
         contact_groups_is_piloted(context, row)) {
         send_body_back(context, row, drift, keep);
         return;
     }
-    double turn = maths_wrap_half(e->heading[row] - w->heading[row]);
+    double turn = maths_wrap_half(e->row[row].heading - w->row[row].heading);
     ground_placement_put(context, row, vec3_lerp(from, to, keep),
-                         maths_wrap_turn(w->heading[row] + turn * keep));
+                         maths_wrap_turn(w->row[row].heading + turn * keep));
     slow_down(context, row, keep);
 }
 
@@ -692,7 +693,7 @@ static bool home_of(const struct end_guard *guard, const struct resting *resting
 static bool try_at(struct end_guard *guard, struct response_context *context, uint32_t row,
                    struct vec3 at)
 {
-    ground_placement_put(context, row, at, context->next->entities.heading[row]);
+    ground_placement_put(context, row, at, context->next->entities.row[row].heading);
     stand_now(guard, context, row);
     return !any_deeper(guard, context, row);
 }
@@ -704,7 +705,8 @@ static bool draw_back(struct end_guard *guard, struct response_context *context,
 {
     const struct entities *e = &context->next->entities;
     const struct vec3 at = entities_position(e, row), way = vec3_sub(at, home);
-    double far = sqrt(way.x * way.x + way.z * way.z), pitch = e->pitch[row], roll = e->roll[row];
+    double far = sqrt(way.x * way.x + way.z * way.z), pitch = e->row[row].pitch,
+           roll = e->row[row].roll;
     double room = ROOM_M * deep_pair_level(context, row);
     if (far <= room + ROUNDING_M)
         return false;
@@ -724,7 +726,7 @@ static bool draw_back(struct end_guard *guard, struct response_context *context,
             deep = middle;
     }
     if (out < 1.0) {
-        ground_placement_put(context, row, vec3_lerp(home, at, out), e->heading[row]);
+        ground_placement_put(context, row, vec3_lerp(home, at, out), e->row[row].heading);
     } else {
         table_set_position(&context->writer, row, at);
         table_set_pitch(&context->writer, row, pitch);
@@ -770,7 +772,7 @@ void end_guard_run(struct end_guard *guard, const struct resting *resting,
     for (uint32_t i = 0; i < guard->count; i++) {
         uint32_t row = guard->row[i];
         if (!free->owned[row] && guarded(context, row) && path_change_grounded(context, row))
-            ground_placement_put(context, row, entities_position(e, row), e->heading[row]);
+            ground_placement_put(context, row, entities_position(e, row), e->row[row].heading);
     }
     guard->moved = guard->count;
     look_at_met(guard, context);

@@ -91,12 +91,12 @@ static void begin_wreck(const struct response_context *context, struct free_side
 {
     const struct entities *w = &context->motion->before;
     uint32_t row = side->row;
-    body->moved.spin = (struct vec3){w->spin_x[row], w->spin_y[row], w->spin_z[row]};
+    body->moved.spin = (struct vec3){w->row[row].spin_x, w->row[row].spin_y, w->row[row].spin_z};
     side->fall = (struct vec3){0.0, -GRAVITY_MPS2 * world_dt_s(context->world), 0.0};
     struct vec3 centre =
         vec3_add(entities_velocity(w, row), vec3_cross(body->moved.spin, side->arm));
     const struct mat3 turn = rotation_matrix(side->turn);
-    const struct kind *kind = &context->world->kinds[w->kind[row]];
+    const struct kind *kind = &context->world->kinds[w->row[row].kind];
     centre = wreck_drag_slow(kind, &turn, centre, world_dt_s(context->world));
     body->moved.spin =
         wreck_drag_slow_spin(kind, &turn, body->moved.spin, world_dt_s(context->world));
@@ -128,8 +128,9 @@ static void begin_piloted(const struct response_context *context, struct free_si
     const struct entities *w = &context->motion->before, *e = &context->next->entities;
     double dt_s = world_dt_s(context->world);
     uint32_t row = side->row;
-    struct vec3 spin = {w->spin_x[row], w->spin_y[row], w->spin_z[row]};
-    const struct vec3 left = {e->spin_x[row], e->spin_y[row], e->spin_z[row]}, begun = spin;
+    struct vec3 spin = {w->row[row].spin_x, w->row[row].spin_y, w->row[row].spin_z};
+    const struct vec3 left = {e->row[row].spin_x, e->row[row].spin_y, e->row[row].spin_z},
+                      begun = spin;
     struct quat freely = side->turn;
     free_rotation_turn(side->mass.moment, &freely, &spin, dt_s);
     double rate = vec3_length(spin);
@@ -159,14 +160,15 @@ static uint32_t body_for(struct free_bodies *bodies, const struct response_conte
     uint32_t index = bodies->body_of[row] = bodies->count++;
     struct free_side *side = &bodies->side[index];
     struct free_body *body = &bodies->body[index];
-    *side = (struct free_side){.row = row,
-                               .is_free = contact_groups_is_free(context, row),
-                               .wreck = e->state[row] == ENTITY_WRECK,
-                               .piloted = contact_groups_is_piloted(context, row),
-                               .mass = mass_properties_of(&context->world->kinds[e->kind[row]]),
-                               .turn = rotation_of(w->heading[row], w->pitch[row], w->roll[row]),
-                               .at = entities_position(w, row),
-                               .parent = index};
+    *side = (struct free_side){
+        .row = row,
+        .is_free = contact_groups_is_free(context, row),
+        .wreck = e->row[row].state == ENTITY_WRECK,
+        .piloted = contact_groups_is_piloted(context, row),
+        .mass = mass_properties_of(&context->world->kinds[e->row[row].kind]),
+        .turn = rotation_of(w->row[row].heading, w->row[row].pitch, w->row[row].roll),
+        .at = entities_position(w, row),
+        .parent = index};
     struct mat3 axes = rotation_matrix(side->turn);
     side->arm = rotation_apply(&axes, (struct vec3){0.0, side->mass.centre_m, 0.0});
     *body = (struct free_body){.inverse_mass = 1.0 / side->mass.mass_kg};
@@ -339,7 +341,7 @@ static void add_ground(struct free_bodies *bodies, const struct response_context
     struct free_point point[FREE_POINTS_MAX];
     struct body_points points;
     double speed = vec3_length(moved->velocity);
-    body_points_of(context->world, context->next->entities.kind[side->row], &points);
+    body_points_of(context->world, context->next->entities.row[side->row].kind, &points);
     double reach = points.reach_m + side->mass.centre_m;
     double margin =
         NEAR_M + (speed + vec3_length(moved->spin) * reach) * world_dt_s(context->world);

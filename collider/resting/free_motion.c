@@ -29,7 +29,7 @@ static bool is_quick(const struct response_context *context, const struct free_s
 {
     const struct entities *w = &context->motion->before;
     uint32_t row = side->row;
-    const struct vec3 spin = {w->spin_x[row], w->spin_y[row], w->spin_z[row]};
+    const struct vec3 spin = {w->row[row].spin_x, w->row[row].spin_y, w->row[row].spin_z};
     if (side->is_free)
         return vec3_length(entities_velocity(w, row)) > REST_MPS || vec3_length(spin) > REST_RPS;
     return vec3_length(body->moved.velocity) > HELD_MPS || vec3_length(body->moved.spin) > HELD_RPS;
@@ -45,7 +45,7 @@ static void find_rest(struct free_bodies *bodies, const struct response_context 
     for (uint32_t i = 1; i < bodies->count; i++) {
         const struct free_side *side = &bodies->side[i];
         struct free_side *root = &bodies->side[free_bodies_root(bodies, i)];
-        uint32_t until = w->until_tick[side->row];
+        uint32_t until = w->row[side->row].until_tick;
         if (side->points == 0)
             continue;
         root->quick |= is_quick(context, side, &bodies->body[i]);
@@ -54,13 +54,13 @@ static void find_rest(struct free_bodies *bodies, const struct response_context 
     }
 }
 
-/* Returns the column until_tick of a wreck (mover/motion/ground/wreck.h). */
+/* Returns the field until_tick of a wreck (mover/motion/ground/wreck.h). */
 static uint32_t until_tick(struct free_bodies *bodies, const struct response_context *context,
                            uint32_t index)
 {
     const struct free_side *root = &bodies->side[free_bodies_root(bodies, index)];
     uint32_t now = (uint32_t)context->next->head->tick;
-    uint32_t until = context->motion->committed->entities.until_tick[bodies->side[index].row];
+    uint32_t until = context->motion->committed->entities.row[bodies->side[index].row].until_tick;
     if (root->quick)
         return 0;
     return until != 0 ? until : now + (uint32_t)ceil(REST_S / world_dt_s(context->world));
@@ -126,9 +126,9 @@ static void put_at_rest(const struct response_context *context, uint32_t row)
     table_set_position(&context->writer, row, entities_position(w, row));
     table_set_velocity(&context->writer, row, none);
     table_set_spin(&context->writer, row, none);
-    table_set_heading(&context->writer, row, w->heading[row]);
-    table_set_pitch(&context->writer, row, w->pitch[row]);
-    table_set_roll(&context->writer, row, w->roll[row]);
+    table_set_heading(&context->writer, row, w->row[row].heading);
+    table_set_pitch(&context->writer, row, w->row[row].pitch);
+    table_set_roll(&context->writer, row, w->row[row].roll);
 }
 
 /* Moves a free body for the whole frame at the velocity that it has at its end. */
@@ -194,10 +194,10 @@ static bool move_held(struct response_context *context, const struct free_side *
     at.x += change.x * dt_s;
     at.z += change.z * dt_s;
     ground_placement_put(context, row, clamped(context->world, at),
-                         maths_wrap_turn(e->heading[row] - turn * dt_s));
-    table_set_vx(&context->writer, row, e->vx[row] + change.x);
-    table_set_vz(&context->writer, row, e->vz[row] + change.z);
-    table_set_spin_y(&context->writer, row, e->spin_y[row] + turn);
+                         maths_wrap_turn(e->row[row].heading - turn * dt_s));
+    table_set_vx(&context->writer, row, e->row[row].vx + change.x);
+    table_set_vz(&context->writer, row, e->row[row].vz + change.z);
+    table_set_spin_y(&context->writer, row, e->row[row].spin_y + turn);
     return true;
 }
 

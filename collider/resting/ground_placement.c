@@ -18,19 +18,20 @@ void ground_placement_put(struct response_context *context, uint32_t row, struct
     const struct entities *e = &context->next->entities;
     const struct terrain *terrain = &context->world->terrain;
     const struct crater_index *craters = context->input.detect.craters;
-    const struct kind *kind = &context->world->kinds[e->kind[row]];
-    if (e->state[row] == ENTITY_ACTIVE && kind->domain == DOMAIN_LAND &&
-        !(e->flags[row] & ENTITY_FLAG_CHASSIS)) {
+    const struct kind *kind = &context->world->kinds[e->row[row].kind];
+    if (e->row[row].state == ENTITY_ACTIVE && kind->domain == DOMAIN_LAND &&
+        !(e->row[row].flags & ENTITY_FLAG_CHASSIS)) {
         const struct rest_pose pose =
-            e->behaviour[row] == BEHAVIOUR_HOLD
-                ? course_lift_pose(context->world, craters, e->kind[row], at.x, at.z, heading_rad)
+            e->row[row].behaviour == BEHAVIOUR_HOLD
+                ? course_lift_pose(context->world, craters, e->row[row].kind, at.x, at.z,
+                                   heading_rad)
                 : rest_pose_of(terrain, craters, kind, at.x, at.z, heading_rad);
         at.y = pose.y_m;
         table_set_pitch(&context->writer, row, pose.pitch_rad);
         table_set_roll(&context->writer, row, pose.roll_rad);
     } else {
-        at.y = e->y[row] + terrain_height(terrain, craters, at.x, at.z) -
-               terrain_height(terrain, craters, e->x[row], e->z[row]);
+        at.y = e->row[row].y + terrain_height(terrain, craters, at.x, at.z) -
+               terrain_height(terrain, craters, e->row[row].x, e->row[row].z);
     }
     table_set_position(&context->writer, row, at);
     table_set_heading(&context->writer, row, heading_rad);
@@ -40,20 +41,20 @@ void ground_placement_put(struct response_context *context, uint32_t row, struct
 static bool holds_course(const struct response_context *context, uint32_t row)
 {
     const struct entities *e = &context->next->entities;
-    return e->state[row] == ENTITY_ACTIVE && e->behaviour[row] == BEHAVIOUR_HOLD &&
-           context->world->kinds[e->kind[row]].domain == DOMAIN_LAND &&
-           !(e->flags[row] & ENTITY_FLAG_CHASSIS);
+    return e->row[row].state == ENTITY_ACTIVE && e->row[row].behaviour == BEHAVIOUR_HOLD &&
+           context->world->kinds[e->row[row].kind].domain == DOMAIN_LAND &&
+           !(e->row[row].flags & ENTITY_FLAG_CHASSIS);
 }
 
 /* Returns true if one of these craters or its rim may be under a row. */
 static bool is_dug_under(const struct response_context *context, uint32_t first, uint32_t row)
 {
     const struct entities *e = &context->next->entities;
-    const double bound_m = context->world->kinds[e->kind[row]].bound_m;
+    const double bound_m = context->world->kinds[e->row[row].kind].bound_m;
     for (uint32_t i = first; i < context->next->head->crater_count; i++) {
         const struct crater *crater = &context->next->craters[i];
         const double reach_m = (double)crater->radius_m * CRATER_RIM + bound_m;
-        if (fabs(crater->x - e->x[row]) < reach_m && fabs(crater->z - e->z[row]) < reach_m)
+        if (fabs(crater->x - e->row[row].x) < reach_m && fabs(crater->z - e->row[row].z) < reach_m)
             return true;
     }
     return false;
@@ -64,7 +65,7 @@ void ground_placement_dug(struct response_context *context, uint32_t first)
     const struct entities *e = &context->next->entities;
     for (uint32_t row = 0; row < context->next->head->used; row++) {
         if (holds_course(context, row) && is_dug_under(context, first, row))
-            ground_placement_put(context, row, entities_position(e, row), e->heading[row]);
+            ground_placement_put(context, row, entities_position(e, row), e->row[row].heading);
     }
 }
 
@@ -74,18 +75,18 @@ void ground_placement_changed(struct response_context *context)
     const struct body_motion *motion = context->motion;
     for (uint32_t i = 0; i < motion->changes; i++) {
         uint32_t row = motion->row[i];
-        if (e->state[row] == ENTITY_ACTIVE && path_change_grounded(context, row))
-            ground_placement_put(context, row, entities_position(e, row), e->heading[row]);
+        if (e->row[row].state == ENTITY_ACTIVE && path_change_grounded(context, row))
+            ground_placement_put(context, row, entities_position(e, row), e->row[row].heading);
     }
 }
 
 static struct exit_slope slope_under(const struct response_context *context, uint32_t row)
 {
     const struct entities *w = body_motion_before(context->motion, row);
-    if (context->world->kinds[w->kind[row]].domain == DOMAIN_SEA)
+    if (context->world->kinds[w->row[row].kind].domain == DOMAIN_SEA)
         return (struct exit_slope){0.0, 0.0};
     struct vec3 normal = terrain_normal(&context->world->terrain, context->input.detect.craters,
-                                        w->x[row], w->z[row]);
+                                        w->row[row].x, w->row[row].z);
     return (struct exit_slope){-normal.x / normal.y, -normal.z / normal.y};
 }
 
@@ -105,10 +106,10 @@ static double clearance_of(const struct response_context *context, const struct 
                            uint32_t row)
 {
     struct body_points points;
-    body_points_of(context->world, e->kind[row], &points);
-    return body_points_clearance(context->world, context->input.detect.craters, &points,
-                                 entities_position(e, row),
-                                 rotation_of(e->heading[row], e->pitch[row], e->roll[row]));
+    body_points_of(context->world, e->row[row].kind, &points);
+    return body_points_clearance(
+        context->world, context->input.detect.craters, &points, entities_position(e, row),
+        rotation_of(e->row[row].heading, e->row[row].pitch, e->row[row].roll));
 }
 
 /* Returns how deep the shell of a vehicle is in the ground [m], below 0 for a height over it. */
@@ -116,9 +117,9 @@ static double shell_depth_of(const struct response_context *context, const struc
                              uint32_t row)
 {
     const struct mat3 turn =
-        rotation_matrix(rotation_of(e->heading[row], e->pitch[row], e->roll[row]));
+        rotation_matrix(rotation_of(e->row[row].heading, e->row[row].pitch, e->row[row].roll));
     return vehicle_shell_depth(&context->world->terrain, context->input.detect.craters,
-                               &context->world->kinds[e->kind[row]], VEHICLE_SHELL_POINTS,
+                               &context->world->kinds[e->row[row].kind], VEHICLE_SHELL_POINTS,
                                entities_position(e, row), &turn);
 }
 
@@ -127,9 +128,9 @@ static double shell_depth_of(const struct response_context *context, const struc
 static bool shell_sinks(const struct response_context *context, uint32_t row)
 {
     const struct entities *w = &context->motion->before, *e = &context->next->entities;
-    const struct kind *kind = &context->world->kinds[e->kind[row]];
-    if (!terrain_uneven_near(&context->world->terrain, context->input.detect.craters, e->x[row],
-                             e->z[row], vehicle_shell_reach(kind)))
+    const struct kind *kind = &context->world->kinds[e->row[row].kind];
+    if (!terrain_uneven_near(&context->world->terrain, context->input.detect.craters, e->row[row].x,
+                             e->row[row].z, vehicle_shell_reach(kind)))
         return false;
     double now = shell_depth_of(context, e, row);
     return now > SHELL_SINKS_M && now > shell_depth_of(context, w, row) + EXACT_M;
@@ -138,12 +139,12 @@ static bool shell_sinks(const struct response_context *context, uint32_t row)
 bool ground_placement_sinks(const struct response_context *context, uint32_t row, bool moved)
 {
     const struct entities *w = &context->motion->before, *e = &context->next->entities;
-    if (context->world->kinds[e->kind[row]].domain == DOMAIN_SEA)
+    if (context->world->kinds[e->row[row].kind].domain == DOMAIN_SEA)
         return false;
-    if (e->state[row] == ENTITY_ACTIVE && e->flags[row] & ENTITY_FLAG_CHASSIS)
+    if (e->row[row].state == ENTITY_ACTIVE && e->row[row].flags & ENTITY_FLAG_CHASSIS)
         return shell_sinks(context, row);
     bool struck = context->motion->change[row] != 0;
-    if (e->state[row] != ENTITY_WRECK || !(struck || moved))
+    if (e->row[row].state != ENTITY_WRECK || !(struck || moved))
         return false;
     double now = clearance_of(context, e, row);
     return now < (struck ? -SINKS_M : -PUSHED_M) && now < clearance_of(context, w, row) - EXACT_M;

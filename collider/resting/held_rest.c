@@ -15,20 +15,20 @@ bool held_rest_ended(const struct response_context *context, uint32_t row)
 {
     const struct entities *w = &context->motion->before, *e = &context->next->entities;
     return body_motion_old(context->motion, row) && entities_still(e, row) &&
-           e->x[row] == w->x[row] && e->y[row] == w->y[row] && e->z[row] == w->z[row] &&
-           e->heading[row] == w->heading[row] && e->pitch[row] == w->pitch[row] &&
-           e->roll[row] == w->roll[row];
+           e->row[row].x == w->row[row].x && e->row[row].y == w->row[row].y &&
+           e->row[row].z == w->row[row].z && e->row[row].heading == w->row[row].heading &&
+           e->row[row].pitch == w->row[row].pitch && e->row[row].roll == w->row[row].roll;
 }
 
 bool held_rest_stays(const struct response_context *context, uint32_t row)
 {
     const struct entities *w = &context->motion->before, *e = &context->next->entities;
     double dt_s = world_dt_s(context->world);
-    return body_motion_old(context->motion, row) && e->state[row] == ENTITY_ACTIVE &&
-           w->flags[row] & ENTITY_FLAG_CHASSIS && entities_still(w, row) &&
+    return body_motion_old(context->motion, row) && e->row[row].state == ENTITY_ACTIVE &&
+           w->row[row].flags & ENTITY_FLAG_CHASSIS && entities_still(w, row) &&
            vec3_length(entities_velocity(e, row)) <= DRIVEN_MPS2 * dt_s &&
-           fabs(e->spin_y[row]) <= TURNED_RPS2 * dt_s &&
-           fabs(e->spin_x[row]) + fabs(e->spin_z[row]) <= TILTED_RPS2 * dt_s;
+           fabs(e->row[row].spin_y) <= TURNED_RPS2 * dt_s &&
+           fabs(e->row[row].spin_x) + fabs(e->row[row].spin_z) <= TILTED_RPS2 * dt_s;
 }
 
 /* --- vehicles that are pinned ------------------------------------------------------------------*/
@@ -36,15 +36,15 @@ bool held_rest_stays(const struct response_context *context, uint32_t row)
 void held_rest_pin(const struct response_context *context, uint32_t row)
 {
     const struct entities *e = &context->next->entities;
-    if (e->jolt_tick[row] != ENTITY_PINNED)
+    if (e->row[row].jolt_tick != ENTITY_PINNED)
         table_set_jolt_tick(&context->writer, row, ENTITY_PINNED);
 }
 
 static void let_go(const struct response_context *context, uint32_t row, uint32_t id)
 {
     const struct entities *e = &context->next->entities;
-    if (entities_alive(e, row, id) && e->flags[row] & ENTITY_FLAG_CHASSIS &&
-        e->jolt_tick[row] == ENTITY_PINNED)
+    if (entities_alive(e, row, id) && e->row[row].flags & ENTITY_FLAG_CHASSIS &&
+        e->row[row].jolt_tick == ENTITY_PINNED)
         table_set_jolt_tick(&context->writer, row, (uint32_t)context->next->head->tick);
 }
 
@@ -73,9 +73,10 @@ void held_rest_let_go(const struct response_context *context)
 void held_rest_keep_springs(struct response_context *context, uint32_t row)
 {
     const struct entities *w = &context->motion->before, *e = &context->next->entities;
-    uint8_t flag = w->flags[row] & ENTITY_FLAG_CHASSIS;
-    if (e->state[row] == ENTITY_ACTIVE && flag != 0 && !(e->flags[row] & ENTITY_FLAG_CHASSIS))
-        table_set_flags(&context->writer, row, e->flags[row] | flag);
+    uint8_t flag = w->row[row].flags & ENTITY_FLAG_CHASSIS;
+    if (e->row[row].state == ENTITY_ACTIVE && flag != 0 &&
+        !(e->row[row].flags & ENTITY_FLAG_CHASSIS))
+        table_set_flags(&context->writer, row, e->row[row].flags | flag);
 }
 
 void held_rest_put_back(struct response_context *context, uint32_t row)
@@ -83,12 +84,12 @@ void held_rest_put_back(struct response_context *context, uint32_t row)
     const struct entities *w = &context->motion->before;
     held_rest_keep_springs(context, row);
     table_set_position(&context->writer, row, entities_position(w, row));
-    table_set_heading(&context->writer, row, w->heading[row]);
-    table_set_pitch(&context->writer, row, w->pitch[row]);
-    table_set_roll(&context->writer, row, w->roll[row]);
+    table_set_heading(&context->writer, row, w->row[row].heading);
+    table_set_pitch(&context->writer, row, w->row[row].pitch);
+    table_set_roll(&context->writer, row, w->row[row].roll);
     table_set_velocity(&context->writer, row, entities_velocity(w, row));
     table_set_spin(&context->writer, row,
-                   (struct vec3){w->spin_x[row], w->spin_y[row], w->spin_z[row]});
+                   (struct vec3){w->row[row].spin_x, w->row[row].spin_y, w->row[row].spin_z});
     body_motion_compute(context->motion, row);
 }
 

@@ -55,7 +55,7 @@ static bool is_solid(const struct response_context *context, uint32_t other)
     const struct entities *e = &context->next->entities;
     if (other & PAIR_FIXED)
         return contact_groups_is_wall(context, other & ~PAIR_FIXED);
-    return e->state[other] != ENTITY_FREE && e->behaviour[other] != BEHAVIOUR_FLIGHT &&
+    return e->row[other].state != ENTITY_FREE && e->row[other].behaviour != BEHAVIOUR_FLIGHT &&
            path_change_grounded(context, other);
 }
 

@@ -88,15 +88,15 @@ static void set_grip(const struct response_context *context, uint32_t row, struc
 {
     const struct entities *w = body_motion_before(context->motion, row),
                           *e = &context->next->entities;
-    const struct kind *kind = &context->world->kinds[e->kind[row]];
-    bool active = e->state[row] == ENTITY_ACTIVE;
-    if (kind->domain != DOMAIN_LAND || (active && e->behaviour[row] == BEHAVIOUR_HOLD))
+    const struct kind *kind = &context->world->kinds[e->row[row].kind];
+    bool active = e->row[row].state == ENTITY_ACTIVE;
+    if (kind->domain != DOMAIN_LAND || (active && e->row[row].behaviour == BEHAVIOUR_HOLD))
         return;
-    double before = w->vx[row] * body->forward_x + w->vz[row] * body->forward_z;
-    double now = e->vx[row] * body->forward_x + e->vz[row] * body->forward_z;
-    bool wreck = e->state[row] == ENTITY_WRECK; /* what pushes it takes its mean velocity on */
-    double dx = (wreck ? body->moved.x : e->vx[row]) - w->vx[row];
-    double dz = (wreck ? body->moved.z : e->vz[row]) - w->vz[row];
+    double before = w->row[row].vx * body->forward_x + w->row[row].vz * body->forward_z;
+    double now = e->row[row].vx * body->forward_x + e->row[row].vz * body->forward_z;
+    bool wreck = e->row[row].state == ENTITY_WRECK; /* what pushes it takes its mean velocity on */
+    double dx = (wreck ? body->moved.x : e->row[row].vx) - w->row[row].vx;
+    double dz = (wreck ? body->moved.z : e->row[row].vz) - w->row[row].vz;
     double grip = GROUND_GRIP * GRAVITY_MPS2 * world_dt_s(context->world);
     double left = kind->mass_kg * maths_max(0.0, grip - sqrt(dx * dx + dz * dz));
     body->grip_along = active && fabs(now) > fabs(before) ? 0.0 : left;
@@ -111,11 +111,11 @@ static void leave_out_push(const struct response_context *context, uint32_t row,
 {
     const struct entities *w = body_motion_before(context->motion, row),
                           *e = &context->next->entities;
-    double before = sqrt(w->vx[row] * w->vx[row] + w->vz[row] * w->vz[row]);
-    double after = sqrt(e->vx[row] * e->vx[row] + e->vz[row] * e->vz[row]);
+    double before = sqrt(w->row[row].vx * w->row[row].vx + w->row[row].vz * w->row[row].vz);
+    double after = sqrt(e->row[row].vx * e->row[row].vx + e->row[row].vz * e->row[row].vz);
     double speed = sqrt(moved->x * moved->x + moved->z * moved->z);
     double share = maths_min(1.0, maths_max(before, after) / maths_max(speed, 1e-9));
-    double rate = maths_max(fabs(w->spin_y[row]), fabs(e->spin_y[row]));
+    double rate = maths_max(fabs(w->row[row].spin_y), fabs(e->row[row].spin_y));
     moved->x *= share;
     moved->z *= share;
     moved->spin = maths_clamp(moved->spin, -rate, rate);
@@ -126,16 +126,17 @@ void resting_level_body(const struct response_context *context, uint32_t row,
 {
     const struct entities *w = body_motion_before(context->motion, row),
                           *e = &context->next->entities;
-    const struct mass_properties mass = mass_properties_of(&context->world->kinds[e->kind[row]]);
+    const struct mass_properties mass =
+        mass_properties_of(&context->world->kinds[e->row[row].kind]);
     double hz = 1.0 / world_dt_s(context->world);
     struct vec3 along = context->path[row].along;
     *body = (struct level_body){.inverse_mass = 1.0 / mass.mass_kg,
                                 .inverse_moment = 1.0 / mass.moment.y,
                                 .moved = {along.x * hz, along.z * hz, 0.0}};
-    body->moved.spin = -maths_wrap_half(e->heading[row] - w->heading[row]) * hz;
-    if (e->state[row] == ENTITY_WRECK)
+    body->moved.spin = -maths_wrap_half(e->row[row].heading - w->row[row].heading) * hz;
+    if (e->row[row].state == ENTITY_WRECK)
         leave_out_push(context, row, &body->moved);
-    maths_sincos(e->heading[row], &body->forward_x, &body->forward_z);
+    maths_sincos(e->row[row].heading, &body->forward_x, &body->forward_z);
     body->forward_z = -body->forward_z;
     set_grip(context, row, body);
 }
@@ -339,15 +340,15 @@ static void set_velocity(struct response_context *context, uint32_t row,
     const struct entities *e = &context->next->entities;
     bool pushed = body->moved.x != body->wanted.x || body->moved.z != body->wanted.z ||
                   body->moved.spin != body->wanted.spin;
-    if (e->state[row] == ENTITY_WRECK && pushed) {
+    if (e->row[row].state == ENTITY_WRECK && pushed) {
         table_set_vx(&context->writer, row, body->moved.x);
         table_set_vz(&context->writer, row, body->moved.z);
         table_set_spin_y(&context->writer, row, body->moved.spin);
         return;
     }
-    table_set_vx(&context->writer, row, e->vx[row] + body->moved.x - body->wanted.x);
-    table_set_vz(&context->writer, row, e->vz[row] + body->moved.z - body->wanted.z);
-    table_set_spin_y(&context->writer, row, spin_after(body, e->spin_y[row]));
+    table_set_vx(&context->writer, row, e->row[row].vx + body->moved.x - body->wanted.x);
+    table_set_vz(&context->writer, row, e->row[row].vz + body->moved.z - body->wanted.z);
+    table_set_spin_y(&context->writer, row, spin_after(body, e->row[row].spin_y));
 }
 
 /* Gives a row the motion of its body. */
@@ -360,7 +361,7 @@ static void move(struct response_context *context, uint32_t row, const struct le
     at.z = world_clamp(context->world, at.z + (body->moved.z + body->pushed.z) * dt_s);
     double turn = (body->moved.spin + body->pushed.spin) * dt_s;
     context->motion->parting_rps[row] = body->pushed.spin;
-    ground_placement_put(context, row, at, maths_wrap_turn(w->heading[row] - turn));
+    ground_placement_put(context, row, at, maths_wrap_turn(w->row[row].heading - turn));
     set_velocity(context, row, body);
     body_motion_compute(context->motion, row);
 }

@@ -30,7 +30,7 @@ static bool bears(const struct persistent_contact *contact)
 static bool leaves(const struct response_context *context, uint32_t row, uint32_t object)
 {
     return pair_filter_stands(&context->input.detect, object) &&
-           (context->next->entities.state[row] != ENTITY_WRECK ||
+           (context->next->entities.row[row].state != ENTITY_WRECK ||
             contact_groups_is_wall(context, object));
 }
 
@@ -57,14 +57,23 @@ bool sleeping_contacts_all(const struct response_context *context)
     return true;
 }
 
-/* Returns true if a response has ended the life of a body, or broken a fixed object. */
+/* Returns true if a row that a response has written may no longer hold the body that it held. */
+static bool may_be_gone(const struct state *committed, const struct state *next, uint32_t row)
+{
+    const struct entity *now = &next->entities.row[row], *before = &committed->entities.row[row];
+    return now->state == ENTITY_FREE || now->state != before->state || now->id != before->id;
+}
+
+/* Returns true if a response may have ended the life of a body, or has broken a fixed object. */
 static bool any_gone(const struct response_context *context)
 {
     const struct state *committed = context->motion->committed, *next = context->next;
-    uint32_t blocks = block_count(next->head->used);
-    for (uint32_t block = 0; block < blocks; block++) {
-        if (context->writer.changed[block] & (COLUMN_BIT(state) | COLUMN_BIT(id)))
-            return true;
+    for (uint32_t w = 0; w * 64 < next->head->used; w++) {
+        for (uint64_t left = context->writer.written[w]; left != 0; left &= left - 1) {
+            uint32_t row = w * 64 + (uint32_t)__builtin_ctzll(left);
+            if (may_be_gone(committed, next, row))
+                return true;
+        }
     }
     return committed->head->tally.fixed_damaged != next->head->tally.fixed_damaged;
 }

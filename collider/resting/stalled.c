@@ -31,11 +31,11 @@ static bool can_stand(const struct response_context *context, uint32_t row)
     const struct entities *w = body_motion_before(context->motion, row),
                           *e = &context->next->entities;
     double dt_s = world_dt_s(context->world);
-    return body_motion_old(context->motion, row) && e->state[row] == ENTITY_ACTIVE &&
-           e->behaviour[row] != BEHAVIOUR_HOLD && !remote_is(e, row) &&
-           context->world->kinds[e->kind[row]].domain == DOMAIN_LAND &&
-           fabs(w->vy[row]) <= STARTED_MPS && fabs(e->vy[row]) <= STARTED_MPS &&
-           fabs(e->spin_x[row]) + fabs(e->spin_z[row]) <= TILTED_RPS2 * dt_s;
+    return body_motion_old(context->motion, row) && e->row[row].state == ENTITY_ACTIVE &&
+           e->row[row].behaviour != BEHAVIOUR_HOLD && !remote_is(e, row) &&
+           context->world->kinds[e->row[row].kind].domain == DOMAIN_LAND &&
+           fabs(w->row[row].vy) <= STARTED_MPS && fabs(e->row[row].vy) <= STARTED_MPS &&
+           fabs(e->row[row].spin_x) + fabs(e->row[row].spin_z) <= TILTED_RPS2 * dt_s;
 }
 
 /* Returns true if the body has not begun to move, and what the contacts leave of its motion is less
@@ -49,11 +49,11 @@ static bool stands(const struct response_context *context, const struct resting 
         return false;
     const struct entities *w = body_motion_before(context->motion, row);
     double dt_s = world_dt_s(context->world);
-    double half = 0.5 * context->world->kinds[w->kind[row]].length_m;
+    double half = 0.5 * context->world->kinds[w->row[row].kind].length_m;
     return resting->pressed_ns[index] * body->inverse_mass > PRESSED_MPS2 * dt_s &&
-           speed_of(w->vx[row], w->vz[row], w->spin_y[row], half) <= STARTED_MPS &&
-           speed_of(body->moved.x - w->vx[row], body->moved.z - w->vz[row],
-                    body->moved.spin - w->spin_y[row], half) <= RESISTS_MPS2 * dt_s &&
+           speed_of(w->row[row].vx, w->row[row].vz, w->row[row].spin_y, half) <= STARTED_MPS &&
+           speed_of(body->moved.x - w->row[row].vx, body->moved.z - w->row[row].vz,
+                    body->moved.spin - w->row[row].spin_y, half) <= RESISTS_MPS2 * dt_s &&
            speed_of(body->pushed.x, body->pushed.z, body->pushed.spin, half) <= STARTED_MPS;
 }
 
@@ -78,9 +78,9 @@ void stalled_stop(struct response_context *context, uint32_t row)
     const struct entities *w = body_motion_before(context->motion, row);
     const struct vec3 rest = {0.0, 0.0, 0.0};
     held_rest_put_back(context, row);
-    if (!(w->flags[row] &
+    if (!(w->row[row].flags &
           ENTITY_FLAG_CHASSIS)) /* it stands on the ground, which may have changed */
-        ground_placement_put(context, row, entities_position(w, row), w->heading[row]);
+        ground_placement_put(context, row, entities_position(w, row), w->row[row].heading);
     table_set_velocity(&context->writer, row, rest);
     table_set_spin(&context->writer, row, rest);
 }

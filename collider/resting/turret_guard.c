@@ -17,7 +17,7 @@ struct aiming_row {
 static bool turns(const struct response_context *context, uint32_t row)
 {
     const struct entities *e = &context->next->entities;
-    return e->state[row] != ENTITY_FREE && body_motion_aimed(context->motion, row);
+    return e->row[row].state != ENTITY_FREE && body_motion_aimed(context->motion, row);
 }
 
 /* Returns the other side of a pair as it ends the frame. Turrets of higher rows have not turned. */
@@ -27,8 +27,8 @@ static struct swept_body other_body(const struct aiming_row *aiming, uint32_t ot
     const struct body_motion *motion = aiming->context->motion;
     struct swept_body body = body_motion_standing(motion, e, other);
     if (!(other & PAIR_FIXED) && other < aiming->row)
-        body_motion_aim(motion, other, (double)e->turret[other], (double)e->gun[other], 0.0, 0.0,
-                        &body);
+        body_motion_aim(motion, other, (double)e->row[other].turret, (double)e->row[other].gun, 0.0,
+                        0.0, &body);
     return body;
 }
 
@@ -38,7 +38,7 @@ static bool stops(const struct response_context *context, uint32_t other)
     const struct entities *e = &context->next->entities;
     if (other & PAIR_FIXED)
         return contact_groups_is_wall(context, other & ~PAIR_FIXED);
-    return e->state[other] != ENTITY_FREE && e->behaviour[other] != BEHAVIOUR_FLIGHT;
+    return e->row[other].state != ENTITY_FREE && e->row[other].behaviour != BEHAVIOUR_FLIGHT;
 }
 
 /* Returns the share of a turn until the parts touch something, 1 if they do not. */
@@ -65,7 +65,7 @@ static double turn(const struct aiming_row *aiming, double turret_turn, double g
 {
     const struct response_context *context = aiming->context;
     const struct entities *e = &context->next->entities;
-    const struct kind *kind = &context->world->kinds[e->kind[aiming->row]];
+    const struct kind *kind = &context->world->kinds[e->row[aiming->row].kind];
     struct swept_body parts = body_motion_standing(context->motion, e, aiming->row);
     body_motion_aim(context->motion, aiming->row, aiming->turret, aiming->gun, turret_turn,
                     gun_turn, &parts);
@@ -77,9 +77,9 @@ static double turn(const struct aiming_row *aiming, double turret_turn, double g
 static void turn_row(struct response_context *context, uint32_t row)
 {
     const struct entities *w = &context->motion->before, *e = &context->next->entities;
-    struct aiming_row aiming = {context, row, (double)w->turret[row], (double)w->gun[row]};
-    double turret_turn = maths_wrap_half((double)e->turret[row] - aiming.turret);
-    double gun_turn = (double)e->gun[row] - aiming.gun, share = 1.0;
+    struct aiming_row aiming = {context, row, (double)w->row[row].turret, (double)w->row[row].gun};
+    double turret_turn = maths_wrap_half((double)e->row[row].turret - aiming.turret);
+    double gun_turn = (double)e->row[row].gun - aiming.gun, share = 1.0;
     if (turret_turn != 0.0)
         share = turn(&aiming, turret_turn, 0.0);
     if (share < 1.0) {
@@ -87,37 +87,22 @@ static void turn_row(struct response_context *context, uint32_t row)
             share > 0.0 ? maths_wrap_half(aiming.turret + turret_turn * share) : aiming.turret;
         table_set_turret(&context->writer, row, (float)aiming.turret);
     }
-    aiming.turret = (double)e->turret[row];
+    aiming.turret = (double)e->row[row].turret;
     share = gun_turn != 0.0 ? turn(&aiming, 0.0, gun_turn) : 1.0;
     if (share < 1.0)
         table_set_gun(&context->writer, row, (float)(aiming.gun + gun_turn * share));
 }
 
-/* Returns true if the mover has turned no turret and raised no gun of the block: then their columns
- * have the hashes of the committed frame. */
-static bool is_quiet(const struct response_context *context, uint32_t block)
-{
-    const struct state *committed = context->motion->committed;
-    if (block >= block_count(committed->head->used))
-        return false;
-    const struct block_hashes *before = &committed->hashes[block];
-    const struct block_hashes *now = &context->next->hashes[block];
-    return before->column[COLUMN_turret] == now->column[COLUMN_turret] &&
-           before->column[COLUMN_gun] == now->column[COLUMN_gun];
-}
-
 void turret_guard_run(struct response_context *context)
 {
     const uint32_t *head = context->contacts->head;
-    uint32_t used = context->next->head->used;
-    for (uint32_t row = 0; row < used; row++) {
-        if (row % CHECKSUM_ROWS == 0 && is_quiet(context, row / CHECKSUM_ROWS)) {
-            row += CHECKSUM_ROWS - 1;
-            continue;
+    for (uint32_t w = 0; w * 64 < context->next->head->used; w++) {
+        for (uint64_t left = context->moved[w]; left != 0; left &= left - 1) {
+            uint32_t row = w * 64 + (uint32_t)__builtin_ctzll(left);
+            if (head[row] == 0 || !turns(context, row))
+                continue;
+            turn_row(context, row);
+            work_done();
         }
-        if (head[row] == 0 || !turns(context, row))
-            continue;
-        turn_row(context, row);
-        work_done();
     }
 }

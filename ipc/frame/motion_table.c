@@ -34,22 +34,22 @@ void motion_table_clear(struct motion_table *table)
 static struct motion_marks marks_of(const struct world *world, const struct entities *e,
                                     uint32_t row)
 {
-    const struct kind *kind = &world->kinds[e->kind[row]];
-    return (struct motion_marks){.driver = e->driver[row],
-                                 .target = e->target_id[row],
-                                 .rounds = e->rounds[row],
-                                 .reload_tick = e->reload_tick[row],
-                                 .turret = e->turret[row],
-                                 .gun = e->gun[row],
-                                 .fuel_l = (float)e->fuel_l[row],
-                                 .throttle = e->throttle[row],
+    const struct kind *kind = &world->kinds[e->row[row].kind];
+    return (struct motion_marks){.driver = e->row[row].driver,
+                                 .target = e->row[row].target_id,
+                                 .rounds = e->row[row].rounds,
+                                 .reload_tick = e->row[row].reload_tick,
+                                 .turret = e->row[row].turret,
+                                 .gun = e->row[row].gun,
+                                 .fuel_l = (float)e->row[row].fuel_l,
+                                 .throttle = e->row[row].throttle,
                                  .spool = (float)spool_of(e, kind, row),
-                                 .kind = e->kind[row],
-                                 .state = e->state[row],
-                                 .force = e->force[row],
-                                 .behaviour = e->behaviour[row],
-                                 .damage = e->damage[row],
-                                 .gear = (uint8_t)entity_gear(e->flags[row]),
+                                 .kind = e->row[row].kind,
+                                 .state = e->row[row].state,
+                                 .force = e->row[row].force,
+                                 .behaviour = e->row[row].behaviour,
+                                 .damage = e->row[row].damage,
+                                 .gear = (uint8_t)entity_gear(e->row[row].flags),
                                  .grounded = grounded_of(e, kind, row),
                                  .pull_up = pull_up_of(world, e, row)};
 }
@@ -87,8 +87,8 @@ static bool motion_differs(const struct motion_told *told, const struct world *w
 {
     const double dt_s = world_dt_s(world);
     const bool cruises = cruise_goes(e, i, tick);
-    if (cruises && e->cruise_tick[i] == told->row_tick && e->x[i] == told->row_x &&
-        e->z[i] == told->row_z)
+    if (cruises && e->row[i].cruise_tick == told->row_tick && e->row[i].x == told->row_x &&
+        e->row[i].z == told->row_z)
         return false;
     struct told_motion then = told->motion;
     if (told->motion.lasts_s > 0.0F || vec3_dot(then.velocity, then.velocity) > 0.0)
@@ -100,7 +100,7 @@ static bool motion_differs(const struct motion_told *told, const struct world *w
         turned(then.heading_rad, cruise_heading(e, i, tick, dt_s), share))
         return true;
     /* A land vehicle that cruises leans as the ground does, which is not looked up for this. */
-    if (cruises && world->kinds[e->kind[i]].domain == DOMAIN_LAND)
+    if (cruises && world->kinds[e->row[i].kind].domain == DOMAIN_LAND)
         return false;
     return turned(then.pitch_rad, cruise_pitch(e, i, tick, dt_s), share) ||
            turned(then.roll_rad, cruise_roll(e, i, tick, dt_s), share);
@@ -118,24 +118,24 @@ static void update_row(struct motion_table *table, const struct world *world,
 {
     struct motion_told *told = &table->told[row];
     const struct entities *e = &snapshot->entities;
-    if (row >= snapshot->head.used || e->state[row] == ENTITY_FREE) {
+    if (row >= snapshot->head.used || e->row[row].state == ENTITY_FREE) {
         if (told->marks.state != ENTITY_FREE) {
             told->marks.state = ENTITY_FREE;
             tell(table, row);
         }
         return;
     }
-    const struct kind *kind = &world->kinds[e->kind[row]];
+    const struct kind *kind = &world->kinds[e->row[row].kind];
     struct motion_marks marks = marks_of(world, e, row);
-    double share = e->driver[row] != 0 ? 0.0 : 1.0; /* who drives sees everything */
-    if (told->id == e->id[row] && !marks_differ(&told->marks, &marks, kind, share) &&
+    double share = e->row[row].driver != 0 ? 0.0 : 1.0; /* who drives sees everything */
+    if (told->id == e->row[row].id && !marks_differ(&told->marks, &marks, kind, share) &&
         !motion_differs(told, world, e, row, table->tick, share))
         return;
     told->motion = cruise_pose_motion(world, &snapshot->craters, e, row, table->tick);
-    told->row_x = e->x[row];
-    told->row_z = e->z[row];
-    told->row_tick = e->cruise_tick[row];
-    told->id = e->id[row];
+    told->row_x = e->row[row].x;
+    told->row_z = e->row[row].z;
+    told->row_tick = e->row[row].cruise_tick;
+    told->id = e->row[row].id;
     told->marks = marks;
     tell(table, row);
 }

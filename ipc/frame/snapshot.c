@@ -23,9 +23,8 @@ static bool still_whole(const struct view *view, uint64_t frame)
 
 int snapshot_init(struct snapshot *snapshot, const struct view *view)
 {
-    size_t columns = entities_bytes(view->header->capacity);
     *snapshot = (struct snapshot){0};
-    snapshot->memory = aligned_alloc(COLUMN_ALIGN, columns);
+    snapshot->memory = calloc(1, entities_bytes(view->header->capacity));
     snapshot->fixed_damage = calloc(view->header->counts.fixed + 1, 1);
     snapshot->contacts = calloc(view->header->contact_slots + 1u, sizeof *snapshot->contacts);
     if (!snapshot->memory || !snapshot->fixed_damage || !snapshot->contacts ||
@@ -37,8 +36,6 @@ int snapshot_init(struct snapshot *snapshot, const struct view *view)
         return -1;
     }
     entities_bind(&snapshot->entities, view->header->capacity, snapshot->memory);
-    memset(snapshot->entities.id, 0, view->header->capacity * sizeof *snapshot->entities.id);
-    memset(snapshot->entities.state, ENTITY_FREE, view->header->capacity);
     return 0;
 }
 

@@ -87,18 +87,14 @@ const char *region_name(enum region region)
 
 size_t layout_table_bytes(uint32_t capacity)
 {
-    return LAYOUT_HEAD_BYTES + entities_bytes(capacity) + block_hashes_bytes(capacity);
+    return LAYOUT_HEAD_BYTES + entities_bytes(capacity) + block_hashes_bytes(capacity) +
+           written_bytes(capacity);
 }
 
 size_t layout_contacts_offset(uint32_t capacity, uint32_t fixed)
 {
     size_t bytes = layout_table_bytes(capacity) + fixed;
-    return (bytes + COLUMN_ALIGN - 1) / COLUMN_ALIGN * COLUMN_ALIGN;
-}
-
-size_t layout_written_offset(uint32_t capacity, uint32_t intents)
-{
-    return layout_table_bytes(capacity) + intents * sizeof(struct event);
+    return (bytes + TABLE_ALIGN - 1) / TABLE_ALIGN * TABLE_ALIGN;
 }
 
 uint32_t layout_input_slots(uint32_t command_slots, uint32_t remotes_max)
@@ -187,8 +183,7 @@ int layout_compute(struct layout *layout, const struct segment_header *h)
     b[REGION_DENTS] = h->dent_slots * sizeof(struct dent);
     b[REGION_EVENTS] = h->event_slots * sizeof(struct event);
     b[REGION_MOVED_WORD] = sizeof(struct moved_word);
-    b[REGION_MOVED] = layout_written_offset(h->capacity, h->intents_per_frame) +
-                      block_count(h->capacity) * ROW_BLOCK_WORDS * sizeof(uint64_t);
+    b[REGION_MOVED] = layout_table_bytes(h->capacity) + h->intents_per_frame * sizeof(struct event);
     for (int i = 0; i < COMMAND_RING_COUNT; i++)
         b[REGION_COMMANDS + i] =
             sizeof(struct command_ring_words) + layout_ring_slots(h, i) * sizeof(struct command);
@@ -265,9 +260,9 @@ uint64_t layout_hash(void)
         offsetof(struct event_command, number),
     };
 #define X(type, name) #type " " #name ";"
-    static const char columns[] = ENTITY_COLUMNS(X); /* their order and types */
+    static const char fields[] = ENTITY_FIELDS(X); /* their order and types */
 #undef X
-    return XXH3_64bits_withSeed(columns, sizeof columns, XXH3_64bits(compiled, sizeof compiled));
+    return XXH3_64bits_withSeed(fields, sizeof fields, XXH3_64bits(compiled, sizeof compiled));
 }
 
 /* The regions that each role writes, beside its slot and the doorbells. */

@@ -21,7 +21,7 @@
  * are 4, 16 or 64 KiB, depending on the kernel (aarch64 has all three). */
 #define REGION_ALIGN 65536u
 
-/* Room for a table's head before its columns [byte]. */
+/* Room for a table's head before its rows [byte]. */
 #define LAYOUT_HEAD_BYTES 8192u
 
 enum region {
@@ -56,13 +56,13 @@ enum region {
     REGION_NAMES,
     REGION_RECIPE,
     REGION_COMMIT,  /* struct commit_words: collider */
-    REGION_WORLD_A, /* head, columns, their hashes, fixed damage, contacts: collider */
+    REGION_WORLD_A, /* head, rows, their hashes and bits, fixed damage, contacts: collider */
     REGION_WORLD_B,
     REGION_CRATERS,    /* collider */
     REGION_DENTS,      /* collider */
     REGION_EVENTS,     /* collider */
     REGION_MOVED_WORD, /* struct moved_word: mover */
-    REGION_MOVED,      /* head, columns, their hashes, intents, bits of rows: mover */
+    REGION_MOVED,      /* head, rows, their hashes and bits, intents: mover */
     REGION_COMMANDS,   /* a struct command_ring_words and its slots, one for each ring */
     REGION_COMMANDS_LAST = REGION_COMMANDS + COMMAND_RING_COUNT - 1,
     REGION_DOORS, /* doorbell semaphores: every role */
@@ -104,14 +104,12 @@ struct layout {
     size_t total;
 };
 
-/* Returns the bytes of a table: head, columns and the columns' hashes (world/checksum.h). */
+/* Returns the bytes of a table: head, rows, their hashes and the bits of those that were written
+ * (world/checksum.h). */
 size_t layout_table_bytes(uint32_t capacity);
 
-/* Returns the place of the contacts in a world buffer [byte], a multiple of COLUMN_ALIGN. */
+/* Returns the place of the contacts in a world buffer [byte], a multiple of TABLE_ALIGN. */
 size_t layout_contacts_offset(uint32_t capacity, uint32_t fixed);
-
-/* Returns the place of the bits of the written rows in the moved table [byte]. */
-size_t layout_written_offset(uint32_t capacity, uint32_t intents);
 
 /* Computes layout from the header's counts and sizes. Returns 0, or -1 with errno EOVERFLOW when a
  * size exceeds its bound, as a forged header's may. */

@@ -6,6 +6,7 @@
 #include "ipc/process/process.h"
 #include "ipc/segment/segment_check.h"
 #include "ipc/segment/segment_internal.h"
+#include "world/checksum.h"
 #include "world/making/scenario.h"
 #include "world/making/scenario_settings.h"
 #include "world/making/world_build.h"
@@ -28,9 +29,14 @@ _Static_assert(sizeof(_Atomic uint64_t) == 8, "frame words are plain 64-bit word
 
 /* --- views over memory -------------------------------------------------------------------------*/
 
-static struct block_hashes *hashes_at(unsigned char *base, uint32_t capacity)
+static uint64_t *hashes_at(unsigned char *base, uint32_t capacity)
 {
-    return (struct block_hashes *)(void *)(base + LAYOUT_HEAD_BYTES + entities_bytes(capacity));
+    return (uint64_t *)(void *)(base + LAYOUT_HEAD_BYTES + entities_bytes(capacity));
+}
+
+static uint64_t *written_at(unsigned char *base, uint32_t capacity)
+{
+    return (uint64_t *)(void *)(base + layout_table_bytes(capacity) - written_bytes(capacity));
 }
 
 static void bind_state(const struct view *view, struct state *state, int region)
@@ -40,6 +46,7 @@ static void bind_state(const struct view *view, struct state *state, int region)
     state->head = (struct state_head *)(void *)base;
     entities_bind(&state->entities, capacity, base + LAYOUT_HEAD_BYTES);
     state->hashes = hashes_at(base, capacity);
+    state->written = written_at(base, capacity);
     state->fixed_damage = base + layout_table_bytes(capacity);
     state->contacts = (void *)(base + layout_contacts_offset(capacity, view->header->counts.fixed));
     state->craters = segment_part(view, REGION_CRATERS);
@@ -96,9 +103,7 @@ void segment_bind(struct view *view)
     entities_bind(&view->m.entities, header->capacity, moved + LAYOUT_HEAD_BYTES);
     view->m.hashes = hashes_at(moved, header->capacity);
     view->m.intents = (struct event *)(void *)(moved + layout_table_bytes(header->capacity));
-    view->m.written =
-        (uint64_t *)(void *)(moved +
-                             layout_written_offset(header->capacity, header->intents_per_frame));
+    view->m.written = written_at(moved, header->capacity);
     for (int i = 0; i < COMMAND_RING_COUNT; i++)
         view->commands[i] = segment_part(view, REGION_COMMANDS + i);
     view->doorbells = segment_part(view, REGION_DOORS);

@@ -61,7 +61,7 @@ bool name_table_add_markings(struct name_table *names, const struct entities *e,
 {
     uint32_t most = names->count;
     for (uint32_t row = 0; row < used && most < jolon_NAMES_MAX; row++)
-        most += e->state[row] != ENTITY_FREE && remote_is(e, row);
+        most += e->row[row].state != ENTITY_FREE && remote_is(e, row);
     jolon_EntityName *entry = calloc(most + 1, sizeof *entry);
     if (!entry)
         return false;
@@ -71,13 +71,13 @@ bool name_table_add_markings(struct name_table *names, const struct entities *e,
     names->entry = entry;
     for (uint32_t row = 0; row < used && names->count < most; row++) {
         char marking[REMOTE_MARKING_MAX + 1];
-        if (e->state[row] == ENTITY_FREE || !remote_is(e, row))
+        if (e->row[row].state == ENTITY_FREE || !remote_is(e, row))
             continue;
         remote_marking(e, row, marking);
         if (marking[0] == '\0')
             continue;
         jolon_EntityName *to = &entry[names->count++];
-        to->id = e->id[row];
+        to->id = e->row[row].id;
         (void)stpncpy(to->name, marking, sizeof to->name - 1);
     }
     qsort(entry, names->count, sizeof *entry, by_id);

@@ -58,10 +58,10 @@ static void become(const struct step_context *context, uint32_t i, enum behaviou
                    enum agent_reason reason)
 {
     struct entities *m = context->m;
-    if (m->behaviour[i] == behaviour)
+    if (m->row[i].behaviour == behaviour)
         return;
-    m->behaviour[i] = (uint8_t)behaviour;
-    m->trigger[i] = (uint8_t)((unsigned)(reason + 1) << TRIGGER_REASON_SHIFT);
+    m->row[i].behaviour = (uint8_t)behaviour;
+    m->row[i].trigger = (uint8_t)((unsigned)(reason + 1) << TRIGGER_REASON_SHIFT);
 }
 
 /* --- a change of behaviour ---------------------------------------------------------------------*/
@@ -73,13 +73,13 @@ static void begin_attack(const struct step_context *context, uint32_t i,
     const struct entities *w = &context->committed->entities;
     uint32_t target = notice->threat != SLOT_NONE ? notice->threat : notice->enemy;
     if (before == BEHAVIOUR_REPOSITION) /* it turns to its target again */
-        target = m->target_slot[i];
+        target = m->row[i].target_slot;
     if (target == SLOT_NONE || !fire_control_fights(context, i, target) ||
         (before == BEHAVIOUR_ATTACK && perception_in_sight(context, i)))
         return; /* it keeps its target */
-    goal_target(context, i, target, w->id[target]);
+    goal_target(context, i, target, w->row[target].id);
     bool seen = target == notice->enemy || target_search_sees(context, i, target);
-    m->seen_tick[i] = (uint32_t)context->tick - (seen ? 0 : UINT32_MAX / 2);
+    m->row[i].seen_tick = (uint32_t)context->tick - (seen ? 0 : UINT32_MAX / 2);
 }
 
 static void begin_flight(const struct step_context *context, uint32_t i,
@@ -89,14 +89,14 @@ static void begin_flight(const struct step_context *context, uint32_t i,
     const struct entities *w = &context->committed->entities;
     uint32_t from = notice->threat != SLOT_NONE                 ? notice->threat
                     : notice->enemy != SLOT_NONE                ? notice->enemy
-                    : notice->percepts & PERCEPTION_BIT(TARGET) ? m->target_slot[i]
+                    : notice->percepts & PERCEPTION_BIT(TARGET) ? m->row[i].target_slot
                                                                 : SLOT_NONE;
     if (from == SLOT_NONE) {
-        goal_away(context, i, m->heading[i] + PI, BACK_OFF_M);
+        goal_away(context, i, m->row[i].heading + PI, BACK_OFF_M);
         return;
     }
-    m->target_slot[i] = from;
-    m->target_id[i] = w->id[from];
+    m->row[i].target_slot = from;
+    m->row[i].target_id = w->row[from].id;
     goal_cover(context, i, from);
     if (notice->threat != SLOT_NONE)
         smoke_screen_fire(context, i);
@@ -108,23 +108,24 @@ static void begin_reposition(const struct step_context *context, uint32_t i,
 {
     struct entities *m = context->m;
     if (row->because == REASON_FIRED_UPON) {
-        goal_target(context, i, notice->threat, context->committed->entities.id[notice->threat]);
-        m->seen_tick[i] = (uint32_t)context->tick - UINT32_MAX / 2;
+        goal_target(context, i, notice->threat,
+                    context->committed->entities.row[notice->threat].id);
+        m->row[i].seen_tick = (uint32_t)context->tick - UINT32_MAX / 2;
         smoke_screen_fire(context, i);
     }
-    goal_position(context, i, m->target_slot[i]);
+    goal_position(context, i, m->row[i].target_slot);
 }
 
 static void begin_order(const struct step_context *context, uint32_t i, enum behaviour before)
 {
     struct entities *m = context->m;
-    const struct kind *kind = &context->world->kinds[m->kind[i]];
-    m->target_slot[i] = m->target_id[i] = 0;
+    const struct kind *kind = &context->world->kinds[m->row[i].kind];
+    m->row[i].target_slot = m->row[i].target_id = 0;
     if (before == BEHAVIOUR_DRIVEN)
         driver_controls_release(m, i);
     if (before == BEHAVIOUR_RESUPPLY) {
-        m->rounds[i] = kind->rounds > m->rounds[i] ? kind->rounds : m->rounds[i];
-        m->fuel_l[i] = maths_max(kind->fuel_l, m->fuel_l[i]);
+        m->row[i].rounds = kind->rounds > m->row[i].rounds ? kind->rounds : m->row[i].rounds;
+        m->row[i].fuel_l = maths_max(kind->fuel_l, m->row[i].fuel_l);
     }
     goal_resume(context, i);
 }
@@ -135,24 +136,25 @@ static void begin_back_off(const struct step_context *context, uint32_t i,
 {
     struct entities *m = context->m;
     if (row->because != REASON_STUCK) {
-        goal_away(context, i, (double)m->bump_heading[i], BACK_OFF_M);
+        goal_away(context, i, (double)m->row[i].bump_heading, BACK_OFF_M);
         return;
     }
     goal_away(context, i, progress_way_out(context, i, before == BEHAVIOUR_BACK_OFF), BACK_OFF_M);
-    m->until_tick[i] =
-        after(context, progress_stuck(context, i) ? REST_S + (double)(m->id[i] % 8)
-                                                  : row->time_s + (double)(m->id[i] % 4));
+    m->row[i].until_tick =
+        after(context, progress_stuck(context, i) ? REST_S + (double)(m->row[i].id % 8)
+                                                  : row->time_s + (double)(m->row[i].id % 4));
 }
 
 static void take(const struct step_context *context, uint32_t i,
                  const struct behaviour_table_row *row, const struct notice *notice)
 {
     struct entities *m = context->m;
-    enum behaviour before = (enum behaviour)m->behaviour[i];
-    become(context, i, (enum behaviour)(row->to == BEHAVIOUR_TABLE_ORDER ? m->order[i] : row->to),
+    enum behaviour before = (enum behaviour)m->row[i].behaviour;
+    become(context, i,
+           (enum behaviour)(row->to == BEHAVIOUR_TABLE_ORDER ? m->row[i].order : row->to),
            (enum agent_reason)row->because);
     if (row->time_s > 0)
-        m->until_tick[i] = after(context, row->time_s);
+        m->row[i].until_tick = after(context, row->time_s);
     switch ((enum behaviour)row->to) {
     case BEHAVIOUR_ATTACK:
         begin_attack(context, i, notice, before);
@@ -167,12 +169,12 @@ static void take(const struct step_context *context, uint32_t i,
         begin_reposition(context, i, row, notice);
         break;
     case BEHAVIOUR_WITHDRAW:
-        m->target_slot[i] = m->target_id[i] = 0;
+        m->row[i].target_slot = m->row[i].target_id = 0;
         goal_base(context, i);
         break;
     case BEHAVIOUR_IDLE: /* without fuel, or stuck fast, it cannot carry out its order */
-        m->order[i] = BEHAVIOUR_IDLE;
-        m->target_slot[i] = m->target_id[i] = 0;
+        m->row[i].order = BEHAVIOUR_IDLE;
+        m->row[i].target_slot = m->row[i].target_id = 0;
         break;
     case BEHAVIOUR_TABLE_ORDER:
         begin_order(context, i, before);
@@ -187,7 +189,7 @@ static void take(const struct step_context *context, uint32_t i,
 /* Returns the way to its goal on the map [m]. */
 static double way_to_goal(const struct entities *m, uint32_t i)
 {
-    double dx = m->goal_x[i] - m->x[i], dz = m->goal_z[i] - m->z[i];
+    double dx = m->row[i].goal_x - m->row[i].x, dz = m->row[i].goal_z - m->row[i].z;
     return sqrt(dx * dx + dz * dz);
 }
 
@@ -195,7 +197,8 @@ static void drive_to_goal(const struct step_context *context, uint32_t i, double
                           struct desired_motion *desired)
 {
     const struct entities *m = context->m;
-    desired->heading_rad = maths_heading(m->goal_x[i] - m->x[i], m->goal_z[i] - m->z[i]);
+    desired->heading_rad =
+        maths_heading(m->row[i].goal_x - m->row[i].x, m->row[i].goal_z - m->row[i].z);
     desired->speed_mps = speed;
 }
 
@@ -205,7 +208,7 @@ static void drive_either_way(const struct step_context *context, uint32_t i, dou
 {
     const struct entities *m = context->m;
     drive_to_goal(context, i, speed, desired);
-    if (fabs(maths_wrap_half(desired->heading_rad - m->heading[i])) > HALF_PI) {
+    if (fabs(maths_wrap_half(desired->heading_rad - m->row[i].heading)) > HALF_PI) {
         desired->heading_rad = maths_wrap_turn(desired->heading_rad + PI);
         desired->speed_mps = -REVERSE_SHARE * speed;
     }
@@ -217,7 +220,7 @@ static void drive_to_cover(const struct step_context *context, uint32_t i, const
                            struct desired_motion *desired)
 {
     const struct entities *m = context->m;
-    double dx = m->goal_x[i] - m->x[i], dz = m->goal_z[i] - m->z[i];
+    double dx = m->row[i].goal_x - m->row[i].x, dz = m->row[i].goal_z - m->row[i].z;
     bool near = dx * dx + dz * dz < REVERSE_M * REVERSE_M;
     double speed = goal_arrived(context, i) ? 0.0 : kind->max_speed_mps;
     if (kind->doctrine == DOCTRINE_ARMOUR && near)
@@ -243,7 +246,7 @@ static void drive_to_position(const struct step_context *context, uint32_t i,
 static void hold_level(const struct step_context *context, uint32_t i, const struct kind *kind,
                        struct desired_motion *desired)
 {
-    double level = LEVEL_LEAST + LEVEL_STEP * (double)(context->m->id[i] % 8);
+    double level = LEVEL_LEAST + LEVEL_STEP * (double)(context->m->row[i].id % 8);
     if (kind->min_speed_mps > 0.0)
         desired->altitude_m = level * kind->cruise_altitude_m;
 }
@@ -267,7 +270,7 @@ static void land_at_base(const struct step_context *context, uint32_t i,
     const struct entities *m = context->m;
     goal_base(context, i);
     double way = way_to_goal(m, i);
-    bool down = (m->flags[i] & ENTITY_FLAG_LANDED) != 0;
+    bool down = (m->row[i].flags & ENTITY_FLAG_LANDED) != 0;
     if (!down && way > OVER_PLACE_M)
         drive_to_goal(context, i, maths_min(sqrt(2.0 * SLOWS_MPS2 * way), 0.5 * way), desired);
     else if (down || landing_place_is_clear(context, i))
@@ -280,12 +283,12 @@ static void drive_resupply(const struct step_context *context, uint32_t i, const
                            struct desired_motion *desired)
 {
     struct entities *m = context->m;
-    double left = (double)(m->until_tick[i] - (uint32_t)context->tick) * context->dt_s;
+    double left = (double)(m->row[i].until_tick - (uint32_t)context->tick) * context->dt_s;
     double all = behaviour_tables[kind->doctrine].resupply_s;
     double share = maths_clamp(1.0 - left / all, 0.0, 1.0);
     uint32_t rounds = (uint32_t)(share * (double)kind->rounds);
-    m->rounds[i] = rounds > m->rounds[i] ? rounds : m->rounds[i];
-    m->fuel_l[i] = maths_max(m->fuel_l[i], share * kind->fuel_l);
+    m->row[i].rounds = rounds > m->row[i].rounds ? rounds : m->row[i].rounds;
+    m->row[i].fuel_l = maths_max(m->row[i].fuel_l, share * kind->fuel_l);
     if (kind->min_speed_mps > 0.0)
         drive_to_goal(context, i, kind->min_speed_mps, desired);
     hold_level(context, i, kind, desired);
@@ -325,8 +328,8 @@ static void fly_holding_turn(const struct step_context *context, uint32_t i,
 static void keep_route(const struct step_context *context, uint32_t i,
                        struct desired_motion *desired)
 {
-    const struct route *route = &context->world->routes[context->m->order_arg[i]];
-    if (!route->once || (route->spread_m <= 0.0f && context->m->leg[i] >= 2))
+    const struct route *route = &context->world->routes[context->m->row[i].order_arg];
+    if (!route->once || (route->spread_m <= 0.0f && context->m->row[i].leg >= 2))
         formation_keeping_route(context, i, desired);
     if (route->once)
         mission_route_pace(context, i, route, desired);
@@ -336,9 +339,9 @@ static void drive_by_behaviour(const struct step_context *context, uint32_t i,
                                struct desired_motion *desired)
 {
     struct entities *m = context->m;
-    const struct kind *kind = &context->world->kinds[m->kind[i]];
+    const struct kind *kind = &context->world->kinds[m->row[i].kind];
     double cruise = CRUISE_SHARE * kind->max_speed_mps;
-    switch ((enum behaviour)m->behaviour[i]) {
+    switch ((enum behaviour)m->row[i].behaviour) {
     case BEHAVIOUR_IDLE:
         fly_holding_turn(context, i, kind, desired);
         break;
@@ -347,7 +350,7 @@ static void drive_by_behaviour(const struct step_context *context, uint32_t i,
         if (goal_arrived(context, i))
             goal_next(context, i);
         drive_to_goal(context, i, cruise, desired);
-        if (m->behaviour[i] == BEHAVIOUR_ROUTE)
+        if (m->row[i].behaviour == BEHAVIOUR_ROUTE)
             keep_route(context, i, desired);
         break;
     case BEHAVIOUR_FOLLOW:
@@ -393,8 +396,8 @@ static float throttle_for(const struct kind *kind, const struct desired_motion *
 static bool travels(const struct entities *m, uint32_t i, const struct kind *kind)
 {
     return kind->domain == DOMAIN_LAND &&
-           (m->behaviour[i] == BEHAVIOUR_PATROL || m->behaviour[i] == BEHAVIOUR_ROUTE ||
-            m->behaviour[i] == BEHAVIOUR_WITHDRAW);
+           (m->row[i].behaviour == BEHAVIOUR_PATROL || m->row[i].behaviour == BEHAVIOUR_ROUTE ||
+            m->row[i].behaviour == BEHAVIOUR_WITHDRAW);
 }
 
 /* Sets the steering so that the turn is complete at its next decision. The climb of an agent is its
@@ -404,7 +407,7 @@ static void set_controls(const struct step_context *context, uint32_t i, const s
 {
     struct entities *m = context->m;
     double turn = kind->turn_rate_rps * turn_s(context, i, kind);
-    double off = maths_wrap_half(desired->heading_rad - m->heading[i]);
+    double off = maths_wrap_half(desired->heading_rad - m->row[i].heading);
     float throttle = throttle_for(kind, desired);
     bool holds = travels(m, i, kind) && throttle != 0.0f;
     bool stands = kind->domain == DOMAIN_LAND && throttle == 0.0f;
@@ -412,26 +415,27 @@ static void set_controls(const struct step_context *context, uint32_t i, const s
         off = 0.0;
     if (stands && !kind->tracked) /* wheels turn no vehicle that stands */
         off = 0.0;
-    m->steer[i] = (float)maths_clamp(off / maths_max(turn, 1e-9), -1.0, 1.0);
-    if (!holds || fabsf(throttle - m->throttle[i]) > SPEED_OFF)
-        m->throttle[i] = throttle;
-    m->climb[i] = 0.0f;
+    m->row[i].steer = (float)maths_clamp(off / maths_max(turn, 1e-9), -1.0, 1.0);
+    if (!holds || fabsf(throttle - m->row[i].throttle) > SPEED_OFF)
+        m->row[i].throttle = throttle;
+    m->row[i].climb = 0.0f;
     if (kind->cruise_altitude_m > 0.0)
-        m->climb[i] = (float)maths_max(desired->altitude_m / kind->cruise_altitude_m - 1.0, -1.0);
+        m->row[i].climb =
+            (float)maths_max(desired->altitude_m / kind->cruise_altitude_m - 1.0, -1.0);
 }
 
 void agent_controls_motion(const struct step_context *context, uint32_t i,
                            struct desired_motion *desired)
 {
     const struct entities *m = context->m;
-    const struct kind *kind = &context->world->kinds[m->kind[i]];
+    const struct kind *kind = &context->world->kinds[m->row[i].kind];
     double turn = kind->turn_rate_rps * context->dt_s;
     *desired = (struct desired_motion){
-        .heading_rad = m->heading[i] + (double)m->steer[i] * turn,
-        .speed_mps = (double)m->throttle[i] * kind->max_speed_mps,
-        .altitude_m = kind->cruise_altitude_m * (1.0 + (double)m->climb[i]),
+        .heading_rad = m->row[i].heading + (double)m->row[i].steer * turn,
+        .speed_mps = (double)m->row[i].throttle * kind->max_speed_mps,
+        .altitude_m = kind->cruise_altitude_m * (1.0 + (double)m->row[i].climb),
         .held = true,
-        .turn = (double)m->steer[i],
+        .turn = (double)m->row[i].steer,
     };
 }
 
@@ -441,13 +445,13 @@ static void suppress(const struct step_context *context, uint32_t i,
                      const struct behaviour_table_row *row)
 {
     struct entities *m = context->m;
-    if (context->world->kinds[m->kind[i]].domain != DOMAIN_LAND)
+    if (context->world->kinds[m->row[i].kind].domain != DOMAIN_LAND)
         return;
     double time_s = fire_control_suppress(context, i);
     uint32_t until = after(context, time_s);
     if ((row && row->because == REASON_SUPPRESSED) ||
-        (m->behaviour[i] == BEHAVIOUR_FLEE && until > m->until_tick[i]))
-        m->until_tick[i] = until;
+        (m->row[i].behaviour == BEHAVIOUR_FLEE && until > m->row[i].until_tick))
+        m->row[i].until_tick = until;
 }
 
 /* Keeps an aircraft from others and from the ground. */
@@ -455,7 +459,7 @@ static void fly_clear(const struct step_context *context, uint32_t i,
                       struct desired_motion *desired)
 {
     double highest_m = aircraft_separation_keep(context, i, desired);
-    if (is_aeroplane(&context->world->kinds[context->m->kind[i]]))
+    if (is_aeroplane(&context->world->kinds[context->m->row[i].kind]))
         terrain_following_steer(context, i, highest_m, desired);
     else
         terrain_following_hover(context, i, desired);
@@ -465,13 +469,13 @@ static void think(const struct step_context *context, uint32_t i, const struct k
                   struct desired_motion *desired)
 {
     struct entities *m = context->m;
-    *desired = (struct desired_motion){.heading_rad = m->heading[i],
+    *desired = (struct desired_motion){.heading_rad = m->row[i].heading,
                                        .altitude_m = kind->cruise_altitude_m};
     struct notice notice = perception_notice(context, i);
-    if (m->order[i] == BEHAVIOUR_SCRIPT)
+    if (m->row[i].order == BEHAVIOUR_SCRIPT)
         notice.percepts &= script_player_percepts(context, i) | PERCEPTION_BIT(STALLED);
     const struct behaviour_table_row *row = behaviour_table_next(
-        &behaviour_tables[kind->doctrine], (enum behaviour)m->behaviour[i], notice.percepts);
+        &behaviour_tables[kind->doctrine], (enum behaviour)m->row[i].behaviour, notice.percepts);
     if (row)
         take(context, i, row, &notice);
     if (notice.percepts & PERCEPTION_BIT(SUPPRESSED))
@@ -480,38 +484,39 @@ static void think(const struct step_context *context, uint32_t i, const struct k
     if (kind->domain != DOMAIN_AIR && !desired->driven && progress_rests(context, i))
         desired->speed_mps = 0.0;
     if (kind->domain == DOMAIN_SEA && !desired->driven &&
-        m->behaviour[i] != BEHAVIOUR_SCRIPT) /* a script's author has chosen the course */
+        m->row[i].behaviour != BEHAVIOUR_SCRIPT) /* a script's author has chosen the course */
         ship_course_keep(context, i, desired);
     shunting_steer(context, i, desired);
     avoidance_steer(context, i, desired);
     if (kind->domain == DOMAIN_AIR && !desired->driven)
         fly_clear(context, i, desired);
     if (disabled_drive(kind, m, i)) {
-        desired->heading_rad = m->heading[i];
+        desired->heading_rad = m->row[i].heading;
         desired->speed_mps = desired->turn = 0.0;
     }
 }
 
 void agent_think(const struct step_context *context, uint32_t i, struct desired_motion *desired)
 {
-    const struct kind *kind = &context->world->kinds[context->m->kind[i]];
+    const struct kind *kind = &context->world->kinds[context->m->row[i].kind];
     think(context, i, kind, desired);
-    if (!agent_thinks_each_frame((enum behaviour)context->m->behaviour[i]))
+    if (!agent_thinks_each_frame((enum behaviour)context->m->row[i].behaviour))
         set_controls(context, i, kind, desired);
-    else if (context->m->behaviour[i] == BEHAVIOUR_SCRIPT && !desired->driven)
-        context->m->throttle[i] = throttle_for(kind, desired); /* progress.c compares with it */
+    else if (context->m->row[i].behaviour == BEHAVIOUR_SCRIPT && !desired->driven)
+        context->m->row[i].throttle = throttle_for(kind, desired); /* progress.c compares with it */
 }
 
 void agent_direct(const struct step_context *context, uint32_t i, struct desired_motion *desired)
 {
     const struct entities *m = context->m;
-    if (agent_thinks_each_frame((enum behaviour)m->behaviour[i]) ||
+    if (agent_thinks_each_frame((enum behaviour)m->row[i].behaviour) ||
         perception_decides(context, i) || perception_event(context, i)) {
         agent_think(context, i, desired);
-        if (agent_thinks_each_frame((enum behaviour)m->behaviour[i]))
+        if (agent_thinks_each_frame((enum behaviour)m->row[i].behaviour))
             return;
     }
     agent_controls_motion(context, i, desired);
-    if (((uint32_t)context->tick + m->id[i]) % context->aim_frames == 0 && attack_ready(context, i))
-        m->trigger[i] |= TRIGGER_FIRE;
+    if (((uint32_t)context->tick + m->row[i].id) % context->aim_frames == 0 &&
+        attack_ready(context, i))
+        m->row[i].trigger |= TRIGGER_FIRE;
 }

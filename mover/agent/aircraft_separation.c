@@ -40,7 +40,7 @@ struct course {
 static double turning_rps(const struct step_context *context, uint32_t i, double speed)
 {
     const struct entities *w = &context->committed->entities;
-    double most = context->world->kinds[w->kind[i]].turn_rate_rps;
+    double most = context->world->kinds[w->row[i].kind].turn_rate_rps;
     double roll = cruise_roll(w, i, step_context_tick(context, w), context->dt_s), sine, cosine;
     maths_sincos(maths_clamp(roll, -STEEPEST_RAD, STEEPEST_RAD), &sine, &cosine);
     double rate = GRAVITY_MPS2 * sine / (cosine * maths_max(speed, SLOWEST_MPS));
@@ -97,8 +97,8 @@ static bool meets(const struct step_context *context, uint32_t i, uint32_t other
     const struct entities *w = &context->committed->entities;
     const double *reach = context->avoidance->reach_m;
     const struct kind *kinds = context->world->kinds;
-    bool nimble = kind_hovers(&kinds[w->kind[i]]) && kind_hovers(&kinds[w->kind[other]]);
-    double beside = reach[w->kind[i]] + reach[w->kind[other]] + BESIDE_M;
+    bool nimble = kind_hovers(&kinds[w->row[i].kind]) && kind_hovers(&kinds[w->row[other].kind]);
+    double beside = reach[w->row[i].kind] + reach[w->row[other].kind] + BESIDE_M;
     struct course its;
     find_course(context, other, 1.0, &its);
     if (come_near(&own->turning, &its, beside))
@@ -114,16 +114,17 @@ static void keep_from(const struct step_context *context, uint32_t i, uint32_t o
 {
     const struct entities *w = &context->committed->entities;
     const struct kind *kinds = context->world->kinds;
-    double its_y = step_context_position(context, w, other).y, up = w->y[i] - its_y;
+    double its_y = step_context_position(context, w, other).y, up = w->row[i].y - its_y;
     double its_vy = step_context_velocity(context, w, other).y;
     if (fabs(up) > FAR_M || !meets(context, i, other, own))
         return;
-    double soon = up + LEAD_S * (w->vy[i] - its_vy);
+    double soon = up + LEAD_S * (w->row[i].vy - its_vy);
     bool above = fabs(soon) > LEVEL_M ? soon > 0.0 : i < other;
-    double gap = 0.5 * (kinds[w->kind[i]].height_m + kinds[w->kind[other]].height_m) + OVER_M;
-    double nearing = up > 0.0 ? its_vy - w->vy[i] : w->vy[i] - its_vy;
+    double gap =
+        0.5 * (kinds[w->row[i].kind].height_m + kinds[w->row[other].kind].height_m) + OVER_M;
+    double nearing = up > 0.0 ? its_vy - w->row[i].vy : w->row[i].vy - its_vy;
     gap += NEARING_S * maths_max(nearing, 0.0);
-    double middle = 0.5 * (w->y[i] + its_y);
+    double middle = 0.5 * (w->row[i].y + its_y);
     if (above)
         clear->low = maths_max(clear->low, its_y + gap);
     else
@@ -139,15 +140,15 @@ double aircraft_separation_reach(const struct step_context *context, uint32_t ki
 static void look_around(const struct step_context *context, uint32_t i, struct clearance *clear)
 {
     const struct entities *w = &context->committed->entities;
-    double speed = sqrt(w->vx[i] * w->vx[i] + w->vz[i] * w->vz[i]);
-    double radius = aircraft_separation_reach(context, w->kind[i], speed);
+    double speed = sqrt(w->row[i].vx * w->row[i].vx + w->row[i].vz * w->row[i].vz);
+    double radius = aircraft_separation_reach(context, w->row[i].kind, speed);
     struct courses own;
     find_course(context, i, 1.0, &own.turning);
     find_course(context, i, 0.0, &own.straight);
-    float x = (float)w->x[i], y = (float)w->y[i], z = (float)w->z[i];
+    float x = (float)w->row[i].x, y = (float)w->row[i].y, z = (float)w->row[i].z;
     float square = (float)(radius * radius);
     struct neighbour_query query = neighbour_query_begin(
-        context->neighbours, NEIGHBOUR_INDEX_LIVING, w->x[i], w->z[i], radius);
+        context->neighbours, NEIGHBOUR_INDEX_LIVING, w->row[i].x, w->row[i].z, radius);
     while (neighbour_query_next_span(&query)) {
         for (const struct neighbour_index_entry *at = query.at; at < query.end; at++) {
             float dx = at->x - x, dz = at->z - z;
@@ -175,12 +176,13 @@ double aircraft_separation_keep(const struct step_context *context, uint32_t i,
         return INFINITY;
     if (kinematics_parked(context->m, i))
         keep_levels(&clear);
-    double usual = context->world->kinds[context->m->kind[i]].cruise_altitude_m;
+    double usual = context->world->kinds[context->m->row[i].kind].cruise_altitude_m;
     double ground = aircraft_ground(context, i), height = desired->altitude_m;
     /* Between two it goes up: the higher one goes up, too, and the lower one may be near the
      * ground. */
     height = maths_max(maths_min(height, clear.high - ground), clear.low - ground);
-    double low = maths_clamp(context->m->y[i] - ground, LOWEST_SHARE * usual, LOW_SHARE * usual);
+    double low =
+        maths_clamp(context->m->row[i].y - ground, LOWEST_SHARE * usual, LOW_SHARE * usual);
     desired->altitude_m = maths_max(height, maths_min(desired->altitude_m, low));
     return clear.high < INFINITY ? desired->altitude_m : INFINITY;
 }

@@ -47,15 +47,15 @@ static void stand_off(const struct kind *kind, const struct aim *aim, double dis
 static double hover_m(const struct step_context *context, uint32_t i, double share)
 {
     const struct entities *m = context->m;
-    return maths_max(share * context->world->kinds[m->kind[i]].range_m,
-                     fire_control_outranges_m(context, i, m->target_slot[i]));
+    return maths_max(share * context->world->kinds[m->row[i].kind].range_m,
+                     fire_control_outranges_m(context, i, m->row[i].target_slot));
 }
 
 /* Comes to where it hovers before air defence no faster than it can stop there. */
 static void stay_away(const struct step_context *context, uint32_t i, const struct kind *kind,
                       const struct aim *aim, struct desired_motion *desired)
 {
-    double safe_m = fire_control_outranges_m(context, i, context->m->target_slot[i]);
+    double safe_m = fire_control_outranges_m(context, i, context->m->row[i].target_slot);
     double way_m = maths_max(aim->distance - safe_m, 0.0);
     if (safe_m > 0.0)
         desired->speed_mps =
@@ -67,7 +67,7 @@ static void hover(const struct step_context *context, uint32_t i, const struct k
                   const struct aim *aim, double distance, struct desired_motion *desired)
 {
     double round =
-        ((double)context->tick * context->dt_s + (double)(context->m->id[i] % 12u)) / HOVER_S;
+        ((double)context->tick * context->dt_s + (double)(context->m->row[i].id % 12u)) / HOVER_S;
     double phase = round - floor(round);
     bool near = aim->distance <= distance;
     stand_off(kind, aim, distance, desired);
@@ -91,24 +91,24 @@ static void pass(const struct step_context *context, uint32_t i, const struct ki
                  const struct aim *aim, double share, struct desired_motion *desired)
 {
     const struct entities *m = context->m;
-    double heading = m->heading[i];
+    double heading = m->row[i].heading;
     bool ahead = fabs(maths_wrap_half(aim->heading - heading)) < HALF_PI;
-    bool loaded = context->tick >= m->reload_tick[i];
+    bool loaded = context->tick >= m->row[i].reload_tick;
     double least = (loaded ? BREAK_OFF : BREAK_SHARE) * kind->range_m;
     bool inbound = ahead ? aim->distance > least : aim->distance > share * kind->range_m;
     desired->heading_rad = inbound ? aim->heading : heading;
     desired->speed_mps = kind->max_speed_mps;
     if (ahead && !inbound)
         desired->heading_rad =
-            maths_wrap_turn(aim->heading + (m->id[i] % 2 ? BREAK_RAD : -BREAK_RAD));
+            maths_wrap_turn(aim->heading + (m->row[i].id % 2 ? BREAK_RAD : -BREAK_RAD));
 }
 
 /* Returns true if its hull is hidden from its target. It checks that when it looks; between two
  * looks a vehicle that has stopped stays. */
 static bool hull_down(const struct step_context *context, uint32_t i, uint32_t target)
 {
-    if (((uint32_t)context->tick + context->m->id[i]) % context->look_frames != 0)
-        return context->m->throttle[i] == 0.0f;
+    if (((uint32_t)context->tick + context->m->row[i].id) % context->look_frames != 0)
+        return context->m->row[i].throttle == 0.0f;
     return goal_hull_down(context, i, target);
 }
 
@@ -118,11 +118,12 @@ static void await(const struct step_context *context, uint32_t i, const struct a
                   struct desired_motion *desired)
 {
     const struct kind *kinds = context->world->kinds;
-    uint32_t target = context->m->target_slot[i];
-    if (kinds[context->m->kind[i]].domain == DOMAIN_LAND &&
-        kinds[context->committed->entities.kind[target]].domain == DOMAIN_AIR)
+    uint32_t target = context->m->row[i].target_slot;
+    if (kinds[context->m->row[i].kind].domain == DOMAIN_LAND &&
+        kinds[context->committed->entities.row[target].kind].domain == DOMAIN_AIR)
         desired->speed_mps = 0.0;
-    if (desired->speed_mps > 0.0 && aim->seen && kinds[context->m->kind[i]].domain == DOMAIN_LAND &&
+    if (desired->speed_mps > 0.0 && aim->seen &&
+        kinds[context->m->row[i].kind].domain == DOMAIN_LAND &&
         aim->distance <= fire_control_reach_m(context, i, target) && hull_down(context, i, target))
         desired->speed_mps = 0.0;
 }
@@ -133,7 +134,7 @@ static double stand_off_m(const struct step_context *context, uint32_t i, const 
 {
     return maths_min(table->stand_off * kind->range_m,
                      EFFECTIVE_SHARE *
-                         fire_control_effective_m(context, i, context->m->target_slot[i]));
+                         fire_control_effective_m(context, i, context->m->row[i].target_slot));
 }
 
 void attack_motion(const struct step_context *context, uint32_t i,
@@ -141,14 +142,14 @@ void attack_motion(const struct step_context *context, uint32_t i,
 {
     struct entities *m = context->m;
     const struct entities *w = &context->committed->entities;
-    const struct kind *kind = &context->world->kinds[m->kind[i]];
+    const struct kind *kind = &context->world->kinds[m->row[i].kind];
     struct aim aim = {.seen = perception_in_sight(context, i)};
     if (aim.seen) {
-        struct vec3 at = step_context_position(context, w, m->target_slot[i]);
-        m->goal_x[i] = at.x;
-        m->goal_z[i] = at.z;
+        struct vec3 at = step_context_position(context, w, m->row[i].target_slot);
+        m->row[i].goal_x = at.x;
+        m->row[i].goal_z = at.z;
     }
-    double dx = m->goal_x[i] - m->x[i], dz = m->goal_z[i] - m->z[i];
+    double dx = m->row[i].goal_x - m->row[i].x, dz = m->row[i].goal_z - m->row[i].z;
     aim.heading = maths_heading(dx, dz);
     aim.distance = sqrt(dx * dx + dz * dz);
     switch (table->manner) {
@@ -172,7 +173,7 @@ void attack_motion(const struct step_context *context, uint32_t i,
 static double rocket_reach_m(const struct step_context *context, uint32_t i, double reach)
 {
     const struct kind *kinds = context->world->kinds;
-    const struct kind *kind = &kinds[context->m->kind[i]];
+    const struct kind *kind = &kinds[context->m->row[i].kind];
     bool hovers = behaviour_tables[kind->doctrine].manner == MANNER_HOVER;
     bool guided = kinds[kind->munition].guidance == GUIDANCE_HOMING;
     return hovers && !guided ? maths_min(reach, hover_m(context, i, ROCKET_SHARE)) : reach;
@@ -186,15 +187,15 @@ uint32_t attack_aim_frames(const struct params *params)
 bool attack_ready(const struct step_context *context, uint32_t i)
 {
     const struct entities *m = context->m;
-    if (m->behaviour[i] != BEHAVIOUR_ATTACK || context->tick < m->reload_tick[i] ||
+    if (m->row[i].behaviour != BEHAVIOUR_ATTACK || context->tick < m->row[i].reload_tick ||
         !perception_in_sight(context, i) || !perception_armed(context, i))
         return false;
     const struct entities *w = &context->committed->entities;
-    uint32_t target = m->target_slot[i];
-    if (!entities_alive(w, target, m->target_id[i]) || w->state[target] != ENTITY_ACTIVE ||
+    uint32_t target = m->row[i].target_slot;
+    if (!entities_alive(w, target, m->row[i].target_id) || w->row[target].state != ENTITY_ACTIVE ||
         !fire_control_harms(context, i, target))
         return false;
     double range = rocket_reach_m(context, i, fire_control_reach_m(context, i, target)) + NEARLY_M;
-    double dx = m->goal_x[i] - m->x[i], dz = m->goal_z[i] - m->z[i];
+    double dx = m->row[i].goal_x - m->row[i].x, dz = m->row[i].goal_z - m->row[i].z;
     return dx * dx + dz * dz < range * range;
 }

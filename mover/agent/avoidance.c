@@ -248,7 +248,7 @@ static void begin(struct look *look, const struct step_context *context, uint32_
                   const struct desired_motion *desired)
 {
     const struct entities *m = context->m;
-    const struct kind *kind = &context->world->kinds[m->kind[i]];
+    const struct kind *kind = &context->world->kinds[m->row[i].kind];
     double speed = fabs(desired->speed_mps), sine, cosine, forward, rightward;
     look->kind = kind;
     look->step = PRESENT;
@@ -256,7 +256,7 @@ static void begin(struct look *look, const struct step_context *context, uint32_
     look->desired_mps = speed;
     look->half_width = 0.5 * kind->width_m;
     look->half_length = 0.5 * kind->length_m;
-    reach_out(look, kind, context->avoidance->nose_m[m->kind[i]], (double)m->turret[i]);
+    reach_out(look, kind, context->avoidance->nose_m[m->row[i].kind], (double)m->row[i].turret);
     if (kind->domain != DOMAIN_AIR)
         look->think_s = context->dt_s * (double)cruise_start_think_frames(context, i);
     look->ahead_s = ahead_of(context);
@@ -264,7 +264,7 @@ static void begin(struct look *look, const struct step_context *context, uint32_
     look->horizon_m = horizon_of(kind, speed);
     maths_sincos(desired->heading_rad, &look->sine, &look->cosine);
     direct(look, 0);
-    maths_sincos(m->heading[i], &sine, &cosine);
+    maths_sincos(m->row[i].heading, &sine, &cosine);
     kinematics_along(m, i, sine, cosine, &forward, &rightward);
     look->x[PRESENT] = look->sign * sine;
     look->z[PRESENT] = -look->sign * cosine;
@@ -403,20 +403,20 @@ static void see_square(const struct step_context *context, uint32_t i, struct lo
     const struct world *world = context->world;
     const struct entities *m = context->m;
     const uint8_t *damage = context->committed->fixed_damage;
-    uint64_t harmless = context->avoidance->harmless[m->kind[i]];
+    uint64_t harmless = context->avoidance->harmless[m->row[i].kind];
     bool flies = look->kind->domain == DOMAIN_AIR;
     const uint32_t *objects;
     uint32_t count = world_reach(world, square, &objects);
     for (uint32_t n = 0; n < count; n++) {
         const struct fixed_object *object = &world->fixed[objects[n]];
-        double dx = object->x - m->x[i], dz = object->z - m->z[i];
+        double dx = object->x - m->row[i].x, dz = object->z - m->row[i].z;
         double most = look->horizon_m + (double)object->radius_m;
         const struct kind *kind = &world->kinds[object->kind];
         if (dx * dx + dz * dz > most * most || damage[objects[n]] >= DAMAGE_HIGH ||
             (kind->outline ? does_no_harm(look->kind, kind) : harmless >> object->kind & 1u))
             continue;
         if (flies &&
-            (double)object->y + (double)object->height_m + 0.5 * look->kind->height_m < m->y[i])
+            (double)object->y + (double)object->height_m + 0.5 * look->kind->height_m < m->row[i].y)
             continue;
         if (kind->outline) {
             if (world->params->collision.shape == SHAPE_MODEL)
@@ -437,8 +437,8 @@ static void see_fixed(const struct step_context *context, uint32_t i, struct loo
     const struct entities *m = context->m;
     double most = look->horizon_m;
     const struct gridsquares *squares = &context->world->terrain.squares;
-    struct gridsquare_box box =
-        gridsquare_box_of(squares, m->x[i] - most, m->z[i] - most, m->x[i] + most, m->z[i] + most);
+    struct gridsquare_box box = gridsquare_box_of(squares, m->row[i].x - most, m->row[i].z - most,
+                                                  m->row[i].x + most, m->row[i].z + most);
     for (int32_t row = box.z0; row <= box.z1; row++)
         for (int32_t column = box.x0; column <= box.x1; column++) {
             uint32_t square = gridsquare_index(squares, column, row);
@@ -455,10 +455,10 @@ static bool goes_around(const struct step_context *context, uint32_t i, const st
 {
     const struct entities *m = context->m;
     const double radius = (double)crater->radius_m;
-    const double goal_x = crater->x - m->goal_x[i], goal_z = crater->z - m->goal_z[i];
+    const double goal_x = crater->x - m->row[i].goal_x, goal_z = crater->z - m->row[i].goal_z;
     return (double)crater->depth_m > look->kind->step_m + DEEPER_M &&
            dx * dx + dz * dz > radius * radius &&
-           (m->behaviour[i] != BEHAVIOUR_SCRIPT ||
+           (m->row[i].behaviour != BEHAVIOUR_SCRIPT ||
             goal_x * goal_x + goal_z * goal_z > radius * radius);
 }
 
@@ -470,14 +470,15 @@ static void see_craters(const struct step_context *context, uint32_t i, struct l
     const double most = look->horizon_m;
     if (craters->count == 0 || look->kind->domain != DOMAIN_LAND || progress_stuck(context, i))
         return;
-    const struct gridsquare_box box = gridsquare_box_of(
-        &craters->squares, m->x[i] - most, m->z[i] - most, m->x[i] + most, m->z[i] + most);
+    const struct gridsquare_box box =
+        gridsquare_box_of(&craters->squares, m->row[i].x - most, m->row[i].z - most,
+                          m->row[i].x + most, m->row[i].z + most);
     for (int32_t row = box.z0; row <= box.z1; row++) {
         for (int32_t column = box.x0; column <= box.x1; column++) {
             uint32_t link = craters->head[gridsquare_index(&craters->squares, column, row)];
             for (; link != 0; link = craters->links[link - 1].next) {
                 const struct crater *crater = &craters->craters[craters->links[link - 1].crater];
-                const double dx = crater->x - m->x[i], dz = crater->z - m->z[i];
+                const double dx = crater->x - m->row[i].x, dz = crater->z - m->row[i].z;
                 if (dx * dx + dz * dz < most * most &&
                     goes_around(context, i, look, crater, dx, dz))
                     limit_by_standing(look, dx, dz, BOWL_SHARE * (double)crater->radius_m);
@@ -495,10 +496,10 @@ static void see_vehicle(const struct step_context *context, uint32_t i, struct l
     if (look->kind->domain == DOMAIN_LAND && other->domain == DOMAIN_LAND)
         apart = INFINITY; /* a road down a slope leads to one that is far below */
     double reach = context->avoidance->reach_m[at->kind];
-    double dx = (double)at->x - m->x[i], dz = (double)at->z - m->z[i];
+    double dx = (double)at->x - m->row[i].x, dz = (double)at->z - m->row[i].z;
     double vx = (double)at->vx, vz = (double)at->vz;
     uint32_t j = at->row;
-    if (j == i || fabs((double)at->y - m->y[i]) > apart + AVOIDANCE_ROUNDED_M)
+    if (j == i || fabs((double)at->y - m->row[i].y) > apart + AVOIDANCE_ROUNDED_M)
         return;
     if (look->step == PRESENT && !may_meet(look, 0, dx, dz, vx, vz, reach) &&
         !may_meet(look, PRESENT, dx, dz, vx, vz, reach))
@@ -509,6 +510,30 @@ static void see_vehicle(const struct step_context *context, uint32_t i, struct l
         limit_by_moving(look, off.x, off.z, velocity.x, velocity.z, reach);
 }
 
+#define NEAR_ENTRIES 32u /* that are looked at together */
+
+/* Sees those of a list that are within a distance. Their rows are asked for before they are read.
+ */
+static void see_listed(const struct step_context *context, uint32_t i, struct look *look,
+                       const struct neighbour_list *list, double most)
+{
+    const struct neighbour_index_entry *entry = &context->neighbour_lists->entries[list->first];
+    const struct neighbour_index_entry *near[NEAR_ENTRIES];
+    const struct entity *row = &context->m->row[i];
+    uint32_t count = 0;
+    for (const struct neighbour_index_entry *end = entry + list->count; entry < end; entry++) {
+        if (!neighbour_index_within(entry, row->x, row->z, most * most))
+            continue;
+        entity_prefetch_pose(&context->committed->entities.row[entry->row]);
+        near[count++] = entry;
+        for (uint32_t n = 0; count == NEAR_ENTRIES && n < count; n++)
+            see_vehicle(context, i, look, near[n]);
+        count %= NEAR_ENTRIES;
+    }
+    for (uint32_t n = 0; n < count; n++)
+        see_vehicle(context, i, look, near[n]);
+}
+
 static void see_vehicles(const struct step_context *context, uint32_t i, struct look *look)
 {
     const struct entities *m = context->m;
@@ -517,16 +542,12 @@ static void see_vehicles(const struct step_context *context, uint32_t i, struct 
     double most = around_of(look->horizon_m) + ahead_m;
     const struct neighbour_list *list = &context->neighbour_lists->list[i];
     bool listed = step_context_thinks(context, i) && list->count != NEIGHBOUR_LISTS_NONE;
-    if (listed && most <= context->avoidance->around_m[m->kind[i]] + ahead_m) {
-        entry = &context->neighbour_lists->entries[list->first];
-        for (const struct neighbour_index_entry *end = entry + list->count; entry < end; entry++) {
-            if (neighbour_index_within(entry, m->x[i], m->z[i], most * most))
-                see_vehicle(context, i, look, entry);
-        }
+    if (listed && most <= context->avoidance->around_m[m->row[i].kind] + ahead_m) {
+        see_listed(context, i, look, list, most);
         return;
     }
-    struct neighbour_query query =
-        neighbour_query_begin(context->neighbours, NEIGHBOUR_INDEX_ALL, m->x[i], m->z[i], most);
+    struct neighbour_query query = neighbour_query_begin(context->neighbours, NEIGHBOUR_INDEX_ALL,
+                                                         m->row[i].x, m->row[i].z, most);
     while ((entry = neighbour_query_next(&query)) != NULL)
         see_vehicle(context, i, look, entry);
 }
@@ -543,8 +564,8 @@ static double works_free(const struct step_context *context, uint32_t i, const s
 {
     const struct entities *m = context->m;
     const struct earthworks *works = &context->world->terrain.earthworks;
-    const struct earthwork_way way = {.x = m->x[i],
-                                      .z = m->z[i],
+    const struct earthwork_way way = {.x = m->row[i].x,
+                                      .z = m->row[i].z,
                                       .ux = look->x[k],
                                       .uz = look->z[k],
                                       .length_m = look->horizon_m,
@@ -561,11 +582,11 @@ static bool too_steep(const struct step_context *context, uint32_t i, double ris
                       double x, double z)
 {
     const struct entities *m = context->m;
-    double most = context->avoidance->slope[m->kind[i]];
+    double most = context->avoidance->slope[m->row[i].kind];
     if (fabs(rise_m) >= most * way_m)
         return true;
     double there = steep_ground_at(context, i, x, z);
-    return there >= most && there > steep_ground_at(context, i, m->x[i], m->z[i]);
+    return there >= most && there > steep_ground_at(context, i, m->row[i].x, m->row[i].z);
 }
 
 /* Where the ground is tested, in shares of the horizon. What is in the water looks at the last two.
@@ -580,17 +601,17 @@ static double ground_free(const struct step_context *context, uint32_t i, const 
                           int k)
 {
     const struct entities *m = context->m;
-    double before_m = 0.0, before_y = m->y[i];
-    double end_x = m->x[i] + look->horizon_m * look->x[k];
-    double end_z = m->z[i] + look->horizon_m * look->z[k];
+    double before_m = 0.0, before_y = m->row[i].y;
+    double end_x = m->row[i].x + look->horizon_m * look->x[k];
+    double end_z = m->row[i].z + look->horizon_m * look->z[k];
     if (look->kind->domain == DOMAIN_LAND && in_world(context, end_x, end_z) &&
-        steep_ground_is_easy(context, i, end_x, end_z, context->avoidance->slope[m->kind[i]]))
+        steep_ground_is_easy(context, i, end_x, end_z, context->avoidance->slope[m->row[i].kind]))
         return look->horizon_m;
     double free_m = works_free(context, i, look, k);
-    bool wet = cover_is_water(terrain_cover(&context->world->terrain, m->x[i], m->z[i]));
+    bool wet = cover_is_water(terrain_cover(&context->world->terrain, m->row[i].x, m->row[i].z));
     for (int n = wet ? TESTED - TESTED_WET : 0; n < TESTED; n++) {
         double distance = tested[n] * look->horizon_m;
-        double x = m->x[i] + distance * look->x[k], z = m->z[i] + distance * look->z[k];
+        double x = m->row[i].x + distance * look->x[k], z = m->row[i].z + distance * look->z[k];
         if (!in_world(context, x, z) ||
             cover_is_water(terrain_cover(&context->world->terrain, x, z)) !=
                 (look->kind->domain == DOMAIN_SEA))
@@ -613,9 +634,9 @@ static double steep_cost(const struct step_context *context, uint32_t i, const s
 {
     const struct entities *m = context->m;
     const double dx = look->horizon_m * look->x[k], dz = look->horizon_m * look->z[k];
-    if (look->kind->domain != DOMAIN_LAND || m->behaviour[i] != BEHAVIOUR_PATROL ||
-        !in_world(context, m->x[i] + dx, m->z[i] + dz) ||
-        steep_ground_is_easy(context, i, m->x[i] + dx, m->z[i] + dz, STEEP))
+    if (look->kind->domain != DOMAIN_LAND || m->row[i].behaviour != BEHAVIOUR_PATROL ||
+        !in_world(context, m->row[i].x + dx, m->row[i].z + dz) ||
+        steep_ground_is_easy(context, i, m->row[i].x + dx, m->row[i].z + dz, STEEP))
         return 0.0;
     double most = steep_ground_on_way(context, i, dx, dz);
     return most < STEEP ? 0.0 : STEEP_COST + STEEPER_COST * (most - STEEP);
@@ -699,7 +720,7 @@ static void see(const struct step_context *context, uint32_t i, struct look *loo
 static int choose_ground(const struct step_context *context, uint32_t i, struct look *look,
                          double heeds_steep)
 {
-    double dodge = (double)context->m->dodge[i];
+    double dodge = (double)context->m->row[i].dodge;
     int direction = best(look, dodge, heeds_steep);
     for (int tries = 0; tries < FAN && look->kind->domain != DOMAIN_AIR; tries++) {
         double free_m = ground_free(context, i, look, direction);
@@ -733,7 +754,8 @@ static void look_ahead(const struct step_context *context, uint32_t i,
     struct look look = {0};
     begin(&look, context, i, desired);
     bool flies = look.kind->domain == DOMAIN_AIR;
-    bool low = !flies || m->y[i] - kinematics_ground(context, m->x[i], m->z[i]) < LOW_FLIGHT_M;
+    bool low =
+        !flies || m->row[i].y - kinematics_ground(context, m->row[i].x, m->row[i].z) < LOW_FLIGHT_M;
     double ease = 1.0 - ground_speed(context, i, &look, desired) / look.desired_mps;
     bool keeps = desired->speed_mps < 0.0 || desired->shunts;
     int direction = keeps ? PRESENT : 0;
@@ -753,43 +775,43 @@ static void look_ahead(const struct step_context *context, uint32_t i,
         double turn_m = flies ? look.horizon_m : turn_free(&look, direction);
         if (turn_m < stopping_way(&look) && turn_m < look.free_m[PRESENT]) {
             direction = PRESENT; /* it slows down before it turns */
-            off = maths_wrap_half(m->heading[i] - desired->heading_rad);
+            off = maths_wrap_half(m->row[i].heading - desired->heading_rad);
         }
         free_m = maths_min(free_m, maths_min(maths_max(turn_m, CREEP_M), look.free_m[PRESENT]));
     }
     if (free_m < look.horizon_m)
         ease = maths_max(ease, 1.0 - stopping_speed(&look, free_m) / look.desired_mps);
     if (!desired->shunts) /* backwards it only slows */
-        m->dodge[i] = (float)(direction < FAN ? fan_rad[direction] : off);
-    m->ease[i] = (float)maths_max(ease, 0.0);
+        m->row[i].dodge = (float)(direction < FAN ? fan_rad[direction] : off);
+    m->row[i].ease = (float)maths_max(ease, 0.0);
 }
 
 static bool rolls(const struct entities *m, uint32_t i)
 {
-    return m->vx[i] * m->vx[i] + m->vz[i] * m->vz[i] > ROLLS_MPS * ROLLS_MPS;
+    return m->row[i].vx * m->row[i].vx + m->row[i].vz * m->row[i].vz > ROLLS_MPS * ROLLS_MPS;
 }
 
 void avoidance_steer(const struct step_context *context, uint32_t i, struct desired_motion *desired)
 {
     struct entities *m = context->m;
-    const struct kind *kind = &context->world->kinds[m->kind[i]];
+    const struct kind *kind = &context->world->kinds[m->row[i].kind];
     if (desired->driven) { /* dodge is the driver's wheel (mover/motion/chassis.h) */
-        m->ease[i] = 0.0f;
+        m->row[i].ease = 0.0f;
         return;
     }
     if (!(fabs(desired->speed_mps) > 0.0)) {
-        m->dodge[i] = m->ease[i] = 0.0f;
+        m->row[i].dodge = m->row[i].ease = 0.0f;
         if (kind->domain == DOMAIN_LAND && rolls(m, i))
-            desired->heading_rad = m->heading[i]; /* it stops before it turns in place */
+            desired->heading_rad = m->row[i].heading; /* it stops before it turns in place */
         return;
     }
     if (perception_looks_out(context, i))
         look_ahead(context, i, desired);
-    desired->heading_rad = maths_wrap_turn(desired->heading_rad + (double)m->dodge[i]);
-    desired->speed_mps *= 1.0 - (double)m->ease[i];
+    desired->heading_rad = maths_wrap_turn(desired->heading_rad + (double)m->row[i].dodge);
+    desired->speed_mps *= 1.0 - (double)m->row[i].ease;
     if (desired->speed_mps > 0.0 && !desired->shunts && kind->domain != DOMAIN_SEA &&
         kind->min_speed_mps <= 0.0) {
-        double off = maths_cos(desired->heading_rad - m->heading[i]);
+        double off = maths_cos(desired->heading_rad - m->row[i].heading);
         desired->speed_mps *= maths_clamp(off, SHARP_SHARE, 1.0);
     }
 }

@@ -4,7 +4,7 @@
  * is free of obstacles: fixed objects that would damage its kind, the future paths of other
  * vehicles, water or land, steep slopes, earthworks and craters that it cannot cross, and the edge
  * of the world. It takes a direction that is free far and needs little turning, and a speed at
- * which it can stop in time. The columns dodge and ease keep the result until the next decision. Of
+ * which it can stop in time. The fields dodge and ease keep the result until the next decision. Of
  * two vehicles that meet head on, both turn right. */
 #ifndef JOLON_MOVER_AGENT_AVOIDANCE_H
 #define JOLON_MOVER_AGENT_AVOIDANCE_H

@@ -43,17 +43,17 @@ void driver_controls_motion(const struct step_context *context, uint32_t i,
                             struct desired_motion *desired)
 {
     const struct entities *m = context->m;
-    const struct kind *kind = &context->world->kinds[m->kind[i]];
-    double throttle = (double)m->throttle[i], brake = (double)m->brake[i];
-    enum gearing gear = entity_gear(m->flags[i]);
+    const struct kind *kind = &context->world->kinds[m->row[i].kind];
+    double throttle = (double)m->row[i].throttle, brake = (double)m->row[i].brake;
+    enum gearing gear = entity_gear(m->row[i].flags);
     *desired = (struct desired_motion){
-        .heading_rad = m->heading[i],
+        .heading_rad = m->row[i].heading,
         .driven = true,
         .gear = kind->domain == DOMAIN_AIR ? GEAR_AUTOMATIC : gear,
-        .turn = (double)m->steer[i],
-        .climb_mps = (double)m->climb[i] * kind->climb_rate_mps,
+        .turn = (double)m->row[i].steer,
+        .climb_mps = (double)m->row[i].climb * kind->climb_rate_mps,
         .brake = brake,
-        .hand_brake = kind->domain == DOMAIN_LAND ? maths_max(0.0, (double)m->climb[i]) : 0.0,
+        .hand_brake = kind->domain == DOMAIN_LAND ? maths_max(0.0, (double)m->row[i].climb) : 0.0,
     };
     /* The brake overrides the throttle. */
     if (kind->domain == DOMAIN_AIR) {
@@ -67,9 +67,9 @@ void driver_controls_motion(const struct step_context *context, uint32_t i,
 
 void driver_controls_release(const struct entities *m, uint32_t i)
 {
-    m->throttle[i] = m->steer[i] = m->climb[i] = 0.0f;
-    m->traverse[i] = m->elevate[i] = m->brake[i] = 0.0f;
-    m->dodge[i] = 0.0f; /* the front wheels, or the engine */
-    m->flags[i] &= (uint8_t)~ENTITY_GEAR_MASK;
-    m->driver[i] = 0;
+    m->row[i].throttle = m->row[i].steer = m->row[i].climb = 0.0f;
+    m->row[i].traverse = m->row[i].elevate = m->row[i].brake = 0.0f;
+    m->row[i].dodge = 0.0f; /* the front wheels, or the engine */
+    m->row[i].flags &= (uint8_t)~ENTITY_GEAR_MASK;
+    m->row[i].driver = 0;
 }

@@ -1,4 +1,4 @@
-/* The control columns of a row that a player or a program drives. */
+/* The control fields of a row that a player or a program drives. */
 #ifndef JOLON_MOVER_AGENT_DRIVER_CONTROLS_H
 #define JOLON_MOVER_AGENT_DRIVER_CONTROLS_H
 

@@ -35,12 +35,12 @@ struct pace {
 static struct pace begin(const struct step_context *context, uint32_t i, double heading_rad)
 {
     const struct entities *m = context->m;
-    const struct kind *kind = &context->world->kinds[m->kind[i]];
+    const struct kind *kind = &context->world->kinds[m->row[i].kind];
     const double friction = ground_grip_of(COVER_GRASS).friction;
     struct pace pace = {.kind = kind, .most_mps = INFINITY};
     double hardest = maths_min(BRAKES * kind->acceleration_mps2, friction * GRAVITY_MPS2);
     maths_sincos(heading_rad, &pace.sine, &pace.cosine);
-    pace.present_mps = sqrt(m->vx[i] * m->vx[i] + m->vz[i] * m->vz[i]);
+    pace.present_mps = sqrt(m->row[i].vx * m->row[i].vx + m->row[i].vz * m->row[i].vz);
     pace.brake_mps2 = BRAKE_SHARE * hardest;
     pace.lateral_mps2 = drivetrain_lateral(kind, friction);
     pace.way_m = pace.present_mps * REACT_S +
@@ -81,7 +81,7 @@ static void heed_ground(const struct step_context *context, uint32_t i, struct p
     const struct entities *m = context->m;
     for (int n = 0; n < PLACES; n++) {
         double way_m = pace->way_m * n / (PLACES - 1), east, south;
-        double x = m->x[i] + way_m * pace->sine, z = m->z[i] - way_m * pace->cosine;
+        double x = m->row[i].x + way_m * pace->sine, z = m->row[i].z - way_m * pace->cosine;
         if (!world_holds(context->world, x, z))
             return;
         terrain_cache_slopes(&context->world->terrain, &context->terrain_entries[i], x, z, &east,
@@ -123,14 +123,15 @@ static double length_of(double x, double z)
 static void heed_route(const struct step_context *context, uint32_t i, struct pace *pace)
 {
     const struct entities *m = context->m;
-    if (m->behaviour[i] != BEHAVIOUR_ROUTE)
+    if (m->row[i].behaviour != BEHAVIOUR_ROUTE)
         return;
-    const struct route *route = &context->world->routes[m->order_arg[i]];
+    const struct route *route = &context->world->routes[m->row[i].order_arg];
     if (route->once || route->count < 3) /* each has places of its own at the points of a mission */
         return;
     const struct route_point *points = &context->world->route_points[route->first];
-    uint32_t n = m->leg[i] % route->count;
-    struct bend bend = {.in_x = m->goal_x[i] - m->x[i], .in_z = m->goal_z[i] - m->z[i]};
+    uint32_t n = m->row[i].leg % route->count;
+    struct bend bend = {.in_x = m->row[i].goal_x - m->row[i].x,
+                        .in_z = m->row[i].goal_z - m->row[i].z};
     double way_m = bend.in_m = length_of(bend.in_x, bend.in_z);
     for (int b = 0; b < BENDS && way_m - BEND_MOST_M < pace->way_m; b++) {
         const struct route_point *at = &points[(n + route->count - 1) % route->count];
@@ -151,7 +152,7 @@ static void heed_route(const struct step_context *context, uint32_t i, struct pa
 static void heed_jolts(const struct step_context *context, uint32_t i, struct pace *pace)
 {
     const struct entities *m = context->m;
-    double square = m->spin_x[i] * m->spin_x[i] + m->spin_z[i] * m->spin_z[i];
+    double square = m->row[i].spin_x * m->row[i].spin_x + m->row[i].spin_z * m->row[i].spin_z;
     if (square > THROWN_RPS * THROWN_RPS)
         pace->most_mps =
             maths_min(pace->most_mps, maths_max(THROWN_SHARE * pace->present_mps, THROWN_MPS));

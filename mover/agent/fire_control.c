@@ -33,8 +33,8 @@
 bool fire_control_suits(const struct step_context *context, uint32_t i, uint32_t target)
 {
     const struct kind *kinds = context->world->kinds;
-    uint16_t munition = kinds[context->m->kind[i]].munition;
-    const struct kind *other = &kinds[context->committed->entities.kind[target]];
+    uint16_t munition = kinds[context->m->row[i].kind].munition;
+    const struct kind *other = &kinds[context->committed->entities.row[target].kind];
     if (munition != KIND_NONE && kinds[munition].delivery == DELIVERY_ARC)
         return false; /* howitzers fire by missions */
     if (munition == KIND_NONE || other->domain != DOMAIN_AIR)
@@ -54,8 +54,8 @@ bool fire_control_suits(const struct step_context *context, uint32_t i, uint32_t
 bool fire_control_harms(const struct step_context *context, uint32_t i, uint32_t target)
 {
     const struct kind *kinds = context->world->kinds;
-    const struct kind *kind = &kinds[context->m->kind[i]];
-    const struct kind *other = &kinds[context->committed->entities.kind[target]];
+    const struct kind *kind = &kinds[context->m->row[i].kind];
+    const struct kind *other = &kinds[context->committed->entities.row[target].kind];
     uint16_t munition = kind_munition_at(kind, other);
     return munition == KIND_NONE ||
            armour_yields(other, &kinds[munition], kind->domain == DOMAIN_AIR);
@@ -65,10 +65,10 @@ bool fire_control_harms(const struct step_context *context, uint32_t i, uint32_t
 static bool rams(const struct step_context *context, uint32_t i, uint32_t target)
 {
     const struct kind *kinds = context->world->kinds;
-    const struct kind *kind = &kinds[context->m->kind[i]];
+    const struct kind *kind = &kinds[context->m->row[i].kind];
     return behaviour_tables[kind->doctrine].manner == MANNER_CHARGE &&
            kind->domain == DOMAIN_LAND &&
-           kinds[context->committed->entities.kind[target]].domain == DOMAIN_LAND;
+           kinds[context->committed->entities.row[target].kind].domain == DOMAIN_LAND;
 }
 
 bool fire_control_fights(const struct step_context *context, uint32_t i, uint32_t target)
@@ -80,7 +80,7 @@ bool fire_control_fights(const struct step_context *context, uint32_t i, uint32_
 bool fire_control_air_defence(const struct step_context *context, uint32_t i)
 {
     const struct kind *kinds = context->world->kinds;
-    const struct kind *kind = &kinds[context->committed->entities.kind[i]];
+    const struct kind *kind = &kinds[context->committed->entities.row[i].kind];
     const struct kind *round = kind->munition != KIND_NONE ? &kinds[kind->munition] : NULL;
     return kind->doctrine == DOCTRINE_FLAK ||
            (round && round->guidance == GUIDANCE_HOMING && round->air_targets == AIR_TARGETS_ALL);
@@ -89,8 +89,8 @@ bool fire_control_air_defence(const struct step_context *context, uint32_t i)
 double fire_control_outranges_m(const struct step_context *context, uint32_t i, uint32_t target)
 {
     const struct kind *kinds = context->world->kinds;
-    const struct kind *kind = &kinds[context->m->kind[i]];
-    const struct kind *other = &kinds[context->committed->entities.kind[target]];
+    const struct kind *kind = &kinds[context->m->row[i].kind];
+    const struct kind *other = &kinds[context->committed->entities.row[target].kind];
     double safe_m = OUTRANGES * other->range_m;
     bool outranges = kind->doctrine == DOCTRINE_HELICOPTER && other->doctrine == DOCTRINE_FLAK &&
                      kind->range_m > safe_m;
@@ -100,7 +100,7 @@ double fire_control_outranges_m(const struct step_context *context, uint32_t i, 
 static bool keeps_rounds(const struct entities *m, uint32_t i, const struct kind *kind)
 {
     return kind->domain == DOMAIN_LAND && kind->doctrine != DOCTRINE_FLAK &&
-           (double)m->rounds[i] <= KEPT_SHARE * (double)kind->rounds;
+           (double)m->row[i].rounds <= KEPT_SHARE * (double)kind->rounds;
 }
 
 /* Returns from how near a gun hits the other kind. The crew of one that is more accurate when it
@@ -116,8 +116,8 @@ static double hits_from_m(const struct kind *round, const struct kind *other)
 double fire_control_effective_m(const struct step_context *context, uint32_t i, uint32_t target)
 {
     const struct kind *kinds = context->world->kinds;
-    const struct kind *kind = &kinds[context->m->kind[i]];
-    const struct kind *other = &kinds[context->committed->entities.kind[target]];
+    const struct kind *kind = &kinds[context->m->row[i].kind];
+    const struct kind *other = &kinds[context->committed->entities.row[target].kind];
     if (kind->domain != DOMAIN_LAND || kind->munition == KIND_NONE ||
         !fire_control_harms(context, i, target))
         return INFINITY;
@@ -129,8 +129,8 @@ double fire_control_effective_m(const struct step_context *context, uint32_t i, 
 double fire_control_reach_m(const struct step_context *context, uint32_t i, uint32_t target)
 {
     const struct kind *kinds = context->world->kinds;
-    const struct kind *kind = &kinds[context->m->kind[i]];
-    const struct kind *other = &kinds[context->committed->entities.kind[target]];
+    const struct kind *kind = &kinds[context->m->row[i].kind];
+    const struct kind *other = &kinds[context->committed->entities.row[target].kind];
     bool homing = kind->munition != KIND_NONE && kinds[kind->munition].guidance == GUIDANCE_HOMING;
     double reach = kind->range_m;
     if (kind->doctrine == DOCTRINE_FLAK && other->domain != DOMAIN_AIR)
@@ -144,7 +144,7 @@ double fire_control_reach_m(const struct step_context *context, uint32_t i, uint
 
 bool fire_control_spares(const struct step_context *context, uint32_t i, uint32_t target)
 {
-    const struct kind *kind = &context->world->kinds[context->m->kind[i]];
+    const struct kind *kind = &context->world->kinds[context->m->row[i].kind];
     struct vec3 off =
         vec3_sub(step_context_position(context, &context->committed->entities, target),
                  entities_position(context->m, i));
@@ -155,7 +155,7 @@ bool fire_control_spares(const struct step_context *context, uint32_t i, uint32_
 bool fire_control_worth(const struct step_context *context, uint32_t i, uint32_t target,
                         double square)
 {
-    if (context->world->kinds[context->m->kind[i]].munition == KIND_NONE)
+    if (context->world->kinds[context->m->row[i].kind].munition == KIND_NONE)
         return true;
     if (!fire_control_suits(context, i, target))
         return false;
@@ -174,22 +174,23 @@ static uint32_t salvo_of(const struct kind *kind, uint32_t id)
 bool fire_control_salvo_over(const struct step_context *context, uint32_t i)
 {
     const struct entities *m = context->m;
-    const struct kind *kind = &context->world->kinds[m->kind[i]];
-    if (m->rounds[i] == 0 || m->rounds[i] >= kind->rounds)
+    const struct kind *kind = &context->world->kinds[m->row[i].kind];
+    if (m->row[i].rounds == 0 || m->row[i].rounds >= kind->rounds)
         return false;
-    double left_s = ((double)m->reload_tick[i] - (double)(uint32_t)context->tick) * context->dt_s;
-    return (kind->rounds - m->rounds[i]) % salvo_of(kind, m->id[i]) == 0 &&
+    double left_s =
+        ((double)m->row[i].reload_tick - (double)(uint32_t)context->tick) * context->dt_s;
+    return (kind->rounds - m->row[i].rounds) % salvo_of(kind, m->row[i].id) == 0 &&
            left_s <= kind->reload_s && left_s > JUST_FIRED * kind->reload_s;
 }
 
 double fire_control_suppress(const struct step_context *context, uint32_t i)
 {
     struct entities *m = context->m;
-    double time_s = random_between(context->world->params->seed, context->tick, m->id[i],
+    double time_s = random_between(context->world->params->seed, context->tick, m->row[i].id,
                                    RANDOM_SUPPRESSED, SUPPRESSED_LEAST_S, SUPPRESSED_MOST_S);
     uint32_t ready = (uint32_t)(context->tick + (uint64_t)(time_s / context->dt_s));
-    if (ready > m->reload_tick[i])
-        m->reload_tick[i] = ready;
+    if (ready > m->row[i].reload_tick)
+        m->row[i].reload_tick = ready;
     return time_s;
 }
 
@@ -199,9 +200,9 @@ static double reaction_s(const struct step_context *context, uint32_t i)
 {
     const struct entities *m = context->m;
     double least = FIRE_CONTROL_LEAST_S;
-    double median = maths_max(context->world->kinds[m->kind[i]].reaction_s, least);
-    double u = SLOWEST_SHARE *
-               random_unit(context->world->params->seed, context->tick, m->id[i], RANDOM_REACTION);
+    double median = maths_max(context->world->kinds[m->row[i].kind].reaction_s, least);
+    double u = SLOWEST_SHARE * random_unit(context->world->params->seed, context->tick,
+                                           m->row[i].id, RANDOM_REACTION);
     return least + (median - least) * sqrt(u / (1.0 - u));
 }
 
@@ -210,6 +211,6 @@ void fire_control_acquire(const struct step_context *context, uint32_t i)
     struct entities *m = context->m;
     double frames = reaction_s(context, i) / context->dt_s;
     uint32_t ready = (uint32_t)(context->tick + (uint64_t)frames + 1);
-    if (ready > m->reload_tick[i])
-        m->reload_tick[i] = ready;
+    if (ready > m->row[i].reload_tick)
+        m->row[i].reload_tick = ready;
 }

@@ -26,12 +26,12 @@
 static bool present(const struct step_context *context, uint32_t slot)
 {
     const struct entities *w = &context->committed->entities;
-    enum behaviour behaviour = (enum behaviour)w->behaviour[slot];
-    if (!entities_alive(w, slot, slot + 1) || w->state[slot] != ENTITY_ACTIVE)
+    enum behaviour behaviour = (enum behaviour)w->row[slot].behaviour;
+    if (!entities_alive(w, slot, slot + 1) || w->row[slot].state != ENTITY_ACTIVE)
         return false;
-    const struct kind *kind = &context->world->kinds[w->kind[slot]];
+    const struct kind *kind = &context->world->kinds[w->row[slot].kind];
     return behaviour != BEHAVIOUR_FLEE && behaviour != BEHAVIOUR_WITHDRAW &&
-           behaviour != BEHAVIOUR_RESUPPLY && (kind->fuel_l <= 0.0 || w->fuel_l[slot] > 0.0);
+           behaviour != BEHAVIOUR_RESUPPLY && (kind->fuel_l <= 0.0 || w->row[slot].fuel_l > 0.0);
 }
 
 struct post {
@@ -48,7 +48,7 @@ static struct post post_of(const struct step_context *context, const struct form
     for (uint32_t slot = formation->first; slot < formation->first + formation->count; slot++) {
         if (slot == i || !present(context, slot))
             continue;
-        if (w->order[slot] != BEHAVIOUR_FOLLOW) {
+        if (w->row[slot].order != BEHAVIOUR_FOLLOW) {
             post.leader = slot;
         } else if (slot < i) {
             post.before = slot;
@@ -71,7 +71,7 @@ static uint32_t nearest_leg(const struct step_context *context, uint32_t i,
     uint32_t nearest = 0;
     for (uint32_t n = 0; n < route->count; n++) {
         const struct route_point *point = &context->world->route_points[route->first + n];
-        double dx = point->x - m->x[i], dz = point->z - m->z[i];
+        double dx = point->x - m->row[i].x, dz = point->z - m->row[i].z;
         if (dx * dx + dz * dz < least) {
             least = dx * dx + dz * dz;
             nearest = n;
@@ -84,12 +84,12 @@ static void take_the_lead(const struct step_context *context, uint32_t i,
                           const struct formation *formation)
 {
     struct entities *m = context->m;
-    m->order[i] = (uint8_t)formation->order;
-    m->order_arg[i] = formation->order_arg;
-    m->behaviour[i] = m->order[i];
-    m->trigger[i] = (uint8_t)((REASON_LEADER_LOST + 1u) << TRIGGER_REASON_SHIFT);
-    if (m->order[i] == BEHAVIOUR_ROUTE)
-        m->leg[i] = nearest_leg(context, i, &context->world->routes[m->order_arg[i]]);
+    m->row[i].order = (uint8_t)formation->order;
+    m->row[i].order_arg = formation->order_arg;
+    m->row[i].behaviour = m->row[i].order;
+    m->row[i].trigger = (uint8_t)((REASON_LEADER_LOST + 1u) << TRIGGER_REASON_SHIFT);
+    if (m->row[i].order == BEHAVIOUR_ROUTE)
+        m->row[i].leg = nearest_leg(context, i, &context->world->routes[m->row[i].order_arg]);
     goal_next(context, i);
 }
 
@@ -119,10 +119,11 @@ static struct route_place nearest_place(const struct step_context *context, uint
         const struct route_point *from = point_of(context, route, leg + route->count - 1);
         const struct route_point *to = point_of(context, route, leg);
         double dx = to->x - from->x, dz = to->z - from->z;
-        double along = (m->x[i] - from->x) * dx + (m->z[i] - from->z) * dz;
+        double along = (m->row[i].x - from->x) * dx + (m->row[i].z - from->z) * dz;
         along = maths_clamp(along / maths_max(dx * dx + dz * dz, 1e-9), 0.0, 1.0);
         double x = from->x + along * dx, z = from->z + along * dz;
-        double square = (m->x[i] - x) * (m->x[i] - x) + (m->z[i] - z) * (m->z[i] - z);
+        double square =
+            (m->row[i].x - x) * (m->row[i].x - x) + (m->row[i].z - z) * (m->row[i].z - z);
         if (square < nearest.square)
             nearest = (struct route_place){leg, x, z, square};
     }
@@ -137,16 +138,16 @@ static bool drive_along_route(const struct step_context *context, uint32_t i,
                               struct desired_motion *desired)
 {
     const struct entities *m = context->m, *w = &context->committed->entities;
-    if (formation->order != BEHAVIOUR_ROUTE || w->order[leader] != BEHAVIOUR_ROUTE)
+    if (formation->order != BEHAVIOUR_ROUTE || w->row[leader].order != BEHAVIOUR_ROUTE)
         return false;
     const struct route *route = &context->world->routes[formation->order_arg];
     if (route->once || route->count < 3)
         return false;
-    uint32_t last = (w->leg[leader] + route->count - 1) % route->count;
+    uint32_t last = (w->row[leader].leg + route->count - 1) % route->count;
     struct route_place at = nearest_place(context, i, route, last);
     if (!(at.square < LANE_STRAYS_M * LANE_STRAYS_M))
         return false;
-    double speed = sqrt(m->vx[i] * m->vx[i] + m->vz[i] * m->vz[i]);
+    double speed = sqrt(m->row[i].vx * m->row[i].vx + m->row[i].vz * m->row[i].vz);
     double left = maths_max(AHEAD_M, AHEAD_S * speed) - sqrt(at.square);
     for (uint32_t n = 0; left > 0.0 && n < LEGS_BACK; n++) {
         const struct route_point *to = point_of(context, route, at.leg);
@@ -160,7 +161,7 @@ static bool drive_along_route(const struct step_context *context, uint32_t i,
         if (left > 0.0)
             at.leg = (at.leg + 1) % route->count;
     }
-    desired->heading_rad = maths_heading(at.x - m->x[i], at.z - m->z[i]);
+    desired->heading_rad = maths_heading(at.x - m->row[i].x, at.z - m->row[i].z);
     return true;
 }
 
@@ -171,12 +172,12 @@ static void keep_place(const struct step_context *context, uint32_t i, double sp
                        double cosine, struct desired_motion *desired)
 {
     const struct entities *m = context->m;
-    const struct kind *kind = &context->world->kinds[m->kind[i]];
-    double dx = m->goal_x[i] - m->x[i], dz = m->goal_z[i] - m->z[i];
+    const struct kind *kind = &context->world->kinds[m->row[i].kind];
+    double dx = m->row[i].goal_x - m->row[i].x, dz = m->row[i].goal_z - m->row[i].z;
     double along = dx * sine - dz * cosine, off = sqrt(dx * dx + dz * dz);
     double ahead = maths_max(AHEAD_M, AHEAD_S * speed);
     if (speed < STANDS_MPS && kind->min_speed_mps <= 0.0) {
-        desired->heading_rad = m->heading[i];
+        desired->heading_rad = m->row[i].heading;
         desired->speed_mps = 0.0;
         if (off >= IN_PLACE_M)
             shunting_drive(context, i, dx, dz, maths_min(CATCH_UP_PS * off, kind->max_speed_mps),
@@ -196,7 +197,7 @@ static void keep_place(const struct step_context *context, uint32_t i, double sp
 static void keep_behind(const struct entities *m, uint32_t i, struct vec3 at, double speed,
                         double spacing_m, struct desired_motion *desired)
 {
-    double dx = at.x - m->x[i], dz = at.z - m->z[i];
+    double dx = at.x - m->row[i].x, dz = at.z - m->row[i].z;
     double most = speed + CATCH_UP_PS * (sqrt(dx * dx + dz * dz) - spacing_m);
     desired->speed_mps = maths_min(desired->speed_mps, maths_max(most, STANDS_MPS));
 }
@@ -206,9 +207,9 @@ void formation_keeping_follow(const struct step_context *context, uint32_t i,
 {
     struct entities *m = context->m;
     const struct entities *w = &context->committed->entities;
-    if (m->order_arg[i] >= context->world->counts.formations)
+    if (m->row[i].order_arg >= context->world->counts.formations)
         return;
-    const struct formation *formation = &context->world->formations[m->order_arg[i]];
+    const struct formation *formation = &context->world->formations[m->row[i].order_arg];
     if (i < formation->first || i - formation->first >= formation->count)
         return;
     struct post post = post_of(context, formation, i);
@@ -226,11 +227,11 @@ void formation_keeping_follow(const struct step_context *context, uint32_t i,
     maths_sincos(step_context_heading(context, w, by), &sine, &cosine);
     struct vec3 at = step_context_position(context, w, by);
     struct vec3 velocity = step_context_velocity(context, w, by);
-    m->goal_x[i] = at.x + ahead * sine + right * cosine;
-    m->goal_z[i] = at.z - ahead * cosine + right * sine;
+    m->row[i].goal_x = at.x + ahead * sine + right * cosine;
+    m->row[i].goal_z = at.z - ahead * cosine + right * sine;
     double speed = maths_max(0.0, velocity.x * sine - velocity.z * cosine);
     keep_place(context, i, speed, sine, cosine, desired);
-    double dx = m->goal_x[i] - m->x[i], dz = m->goal_z[i] - m->z[i];
+    double dx = m->row[i].goal_x - m->row[i].x, dz = m->row[i].goal_z - m->row[i].z;
     if (column && dx * dx + dz * dz > FAR_M * FAR_M &&
         drive_along_route(context, i, formation, post.leader, desired))
         keep_behind(m, i, at, speed, formation->spacing_m, desired);
@@ -242,17 +243,17 @@ void formation_keeping_route(const struct step_context *context, uint32_t i,
                              struct desired_motion *desired)
 {
     const struct entities *m = context->m;
-    const struct kind *kind = &context->world->kinds[m->kind[i]];
-    const struct route *route = &context->world->routes[m->order_arg[i]];
+    const struct kind *kind = &context->world->kinds[m->row[i].kind];
+    const struct route *route = &context->world->routes[m->row[i].order_arg];
     const struct route_point *points = &context->world->route_points[route->first];
-    const struct route_point *from = &points[(m->leg[i] + route->count - 2) % route->count];
-    double dx = m->goal_x[i] - from->x, dz = m->goal_z[i] - from->z;
+    const struct route_point *from = &points[(m->row[i].leg + route->count - 2) % route->count];
+    double dx = m->row[i].goal_x - from->x, dz = m->row[i].goal_z - from->z;
     double length = sqrt(dx * dx + dz * dz);
     if (!(length > LANE_AHEAD_M))
         return;
     dx /= length;
     dz /= length;
-    double x = m->x[i] - from->x, z = m->z[i] - from->z;
+    double x = m->row[i].x - from->x, z = m->row[i].z - from->z;
     double along = x * dx + z * dz, right = z * dx - x * dz;
     double next = along + maths_max(LANE_AHEAD_M, LANE_AHEAD_S * desired->speed_mps);
     if (along < 0.0 || next > length || fabs(right) > LANE_STRAYS_M)

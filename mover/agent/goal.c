@@ -26,14 +26,14 @@
 
 static double unit(const struct step_context *context, uint32_t i, enum random_purpose purpose)
 {
-    return random_unit(context->world->params->seed, context->tick, context->m->id[i], purpose);
+    return random_unit(context->world->params->seed, context->tick, context->m->row[i].id, purpose);
 }
 
 /* --- orders ------------------------------------------------------------------------------------*/
 
 static bool suits(const struct step_context *context, uint32_t i, double x, double z)
 {
-    const struct kind *kind = &context->world->kinds[context->m->kind[i]];
+    const struct kind *kind = &context->world->kinds[context->m->row[i].kind];
     bool water = cover_is_water(terrain_cover(&context->world->terrain, x, z));
     return kind->domain == DOMAIN_AIR || (kind->domain == DOMAIN_SEA) == water;
 }
@@ -43,15 +43,15 @@ static bool suits(const struct step_context *context, uint32_t i, double x, doub
 static void patrol(const struct step_context *context, uint32_t i)
 {
     struct entities *m = context->m;
-    const struct area *area = &context->world->areas[m->order_arg[i]];
-    const bool ship = context->world->kinds[m->kind[i]].domain == DOMAIN_SEA;
+    const struct area *area = &context->world->areas[m->row[i].order_arg];
+    const bool ship = context->world->kinds[m->row[i].kind].domain == DOMAIN_SEA;
     for (int draw = 0; draw < GOAL_DRAWS; draw++) {
         double u = unit(context, i, RANDOM_GOAL_X) + (double)draw * 0.618033988749895;
         double v = unit(context, i, RANDOM_GOAL_Z) + (double)draw * 0.754877666246693;
-        m->goal_x[i] = area->x0 + (area->x1 - area->x0) * (u - floor(u));
-        m->goal_z[i] = area->z0 + (area->z1 - area->z0) * (v - floor(v));
-        if (suits(context, i, m->goal_x[i], m->goal_z[i]) &&
-            (!ship || ship_course_is_clear(context, i, m->goal_x[i], m->goal_z[i])))
+        m->row[i].goal_x = area->x0 + (area->x1 - area->x0) * (u - floor(u));
+        m->row[i].goal_z = area->z0 + (area->z1 - area->z0) * (v - floor(v));
+        if (suits(context, i, m->row[i].goal_x, m->row[i].goal_z) &&
+            (!ship || ship_course_is_clear(context, i, m->row[i].goal_x, m->row[i].goal_z)))
             return;
     }
 }
@@ -59,37 +59,38 @@ static void patrol(const struct step_context *context, uint32_t i)
 static void route(const struct step_context *context, uint32_t i)
 {
     struct entities *m = context->m;
-    const struct route *route = &context->world->routes[m->order_arg[i]];
+    const struct route *route = &context->world->routes[m->row[i].order_arg];
     if (route->once) {
         mission_route_next(context, i, route);
         return;
     }
-    uint32_t leg = m->leg[i] % route->count;
-    m->goal_x[i] = context->world->route_points[route->first + leg].x;
-    m->goal_z[i] = context->world->route_points[route->first + leg].z;
-    m->leg[i] = (leg + 1) % route->count;
+    uint32_t leg = m->row[i].leg % route->count;
+    m->row[i].goal_x = context->world->route_points[route->first + leg].x;
+    m->row[i].goal_z = context->world->route_points[route->first + leg].z;
+    m->row[i].leg = (leg + 1) % route->count;
 }
 
 void goal_next(const struct step_context *context, uint32_t i)
 {
-    if (context->m->behaviour[i] == BEHAVIOUR_PATROL)
+    if (context->m->row[i].behaviour == BEHAVIOUR_PATROL)
         patrol(context, i);
-    else if (context->m->behaviour[i] == BEHAVIOUR_ROUTE)
+    else if (context->m->row[i].behaviour == BEHAVIOUR_ROUTE)
         route(context, i);
 }
 
 void goal_resume(const struct step_context *context, uint32_t i)
 {
     struct entities *m = context->m;
-    if (m->behaviour[i] == BEHAVIOUR_SCRIPT)
+    if (m->row[i].behaviour == BEHAVIOUR_SCRIPT)
         script_player_resume(context, i);
-    if (m->behaviour[i] == BEHAVIOUR_ROUTE && context->world->routes[m->order_arg[i]].once) {
-        mission_route_resume(context, i, &context->world->routes[m->order_arg[i]]);
+    if (m->row[i].behaviour == BEHAVIOUR_ROUTE &&
+        context->world->routes[m->row[i].order_arg].once) {
+        mission_route_resume(context, i, &context->world->routes[m->row[i].order_arg]);
         return;
     }
-    if (m->behaviour[i] == BEHAVIOUR_ROUTE) {
-        uint32_t count = context->world->routes[m->order_arg[i]].count;
-        m->leg[i] = (m->leg[i] + count - 1) % count;
+    if (m->row[i].behaviour == BEHAVIOUR_ROUTE) {
+        uint32_t count = context->world->routes[m->row[i].order_arg].count;
+        m->row[i].leg = (m->row[i].leg + count - 1) % count;
     }
     goal_next(context, i);
 }
@@ -101,13 +102,13 @@ static void along(const struct step_context *context, uint32_t i, double heading
 {
     double sine, cosine;
     maths_sincos(heading, &sine, &cosine);
-    *x = world_clamp(context->world, context->m->x[i] + distance * sine);
-    *z = world_clamp(context->world, context->m->z[i] - distance * cosine);
+    *x = world_clamp(context->world, context->m->row[i].x + distance * sine);
+    *z = world_clamp(context->world, context->m->row[i].z - distance * cosine);
 }
 
 void goal_away(const struct step_context *context, uint32_t i, double heading, double distance)
 {
-    along(context, i, heading, distance, &context->m->goal_x[i], &context->m->goal_z[i]);
+    along(context, i, heading, distance, &context->m->row[i].goal_x, &context->m->row[i].goal_z);
 }
 
 void goal_cover(const struct step_context *context, uint32_t i, uint32_t enemy)
@@ -116,9 +117,9 @@ void goal_cover(const struct step_context *context, uint32_t i, uint32_t enemy)
     static const double ways[] = {40.0, 75.0, 120.0, 350.0, 900.0};
     struct entities *m = context->m;
     const struct entities *w = &context->committed->entities;
-    const struct kind *kind = &context->world->kinds[m->kind[i]];
+    const struct kind *kind = &context->world->kinds[m->row[i].kind];
     struct vec3 from = step_context_position(context, w, enemy);
-    double away = maths_heading(m->x[i] - from.x, m->z[i] - from.z);
+    double away = maths_heading(m->row[i].x - from.x, m->row[i].z - from.z);
     struct vec3 eye = target_search_eye(context, enemy), to;
     for (int n = 0; n < 25; n++) {
         along(context, i, away + turns[n % 5], ways[n / 5], &to.x, &to.z);
@@ -126,8 +127,8 @@ void goal_cover(const struct step_context *context, uint32_t i, uint32_t enemy)
                (kind->domain == DOMAIN_AIR ? kind->cruise_altitude_m : 0.0);
         if (suits(context, i, to.x, to.z) &&
             !line_of_sight_clear(context->line_of_sight, eye, to)) {
-            m->goal_x[i] = to.x;
-            m->goal_z[i] = to.z;
+            m->row[i].goal_x = to.x;
+            m->row[i].goal_z = to.z;
             return;
         }
     }
@@ -156,10 +157,10 @@ static int find_position(const struct step_context *context, uint32_t i, uint32_
     static const double ways[] = {30.0, 60.0, 90.0};
     const struct entities *m = context->m;
     const struct entities *w = &context->committed->entities;
-    const struct kind *kind = &context->world->kinds[m->kind[i]];
+    const struct kind *kind = &context->world->kinds[m->row[i].kind];
     struct vec3 eye = target_search_eye(context, enemy), to = {0};
     struct vec3 at = step_context_position(context, w, enemy);
-    double towards = maths_heading(at.x - m->x[i], at.z - m->z[i]);
+    double towards = maths_heading(at.x - m->row[i].x, at.z - m->row[i].z);
     double side = unit(context, i, RANDOM_GOAL_X) < 0.5 ? 1.0 : -1.0;
     int hidden = -1;
     double heading = towards, distance = 0.0;
@@ -188,20 +189,20 @@ void goal_position(const struct step_context *context, uint32_t i, uint32_t enem
 {
     struct vec3 place;
     (void)find_position(context, i, enemy, &place);
-    context->m->goal_x[i] = place.x;
-    context->m->goal_z[i] = place.z;
+    context->m->row[i].goal_x = place.x;
+    context->m->row[i].goal_z = place.z;
 }
 
 bool goal_hull_down(const struct step_context *context, uint32_t i, uint32_t enemy)
 {
-    const struct kind *kind = &context->world->kinds[context->m->kind[i]];
+    const struct kind *kind = &context->world->kinds[context->m->row[i].kind];
     struct vec3 eye = target_search_eye(context, enemy);
     return hides(context, kind, eye, entities_position(context->m, i)) == 2;
 }
 
 bool goal_cover_near(const struct step_context *context, uint32_t i, uint32_t enemy)
 {
-    const struct kind *kind = &context->world->kinds[context->m->kind[i]];
+    const struct kind *kind = &context->world->kinds[context->m->row[i].kind];
     struct vec3 eye = target_search_eye(context, enemy), place = entities_position(context->m, i);
     return hides(context, kind, eye, place) == 0 && find_position(context, i, enemy, &place) > 0;
 }
@@ -210,13 +211,13 @@ void goal_target(const struct step_context *context, uint32_t i, uint32_t row, u
 {
     struct entities *m = context->m;
     const struct entities *w = &context->committed->entities;
-    if (m->target_id[i] != id)
+    if (m->row[i].target_id != id)
         fire_control_acquire(context, i);
-    m->target_slot[i] = row;
-    m->target_id[i] = id;
+    m->row[i].target_slot = row;
+    m->row[i].target_id = id;
     struct vec3 at = step_context_position(context, w, row);
-    m->goal_x[i] = at.x;
-    m->goal_z[i] = at.z;
+    m->row[i].goal_x = at.x;
+    m->row[i].goal_z = at.z;
 }
 
 /* --- home --------------------------------------------------------------------------------------*/
@@ -225,24 +226,24 @@ void goal_target(const struct step_context *context, uint32_t i, uint32_t row, u
 static void base_place(const struct step_context *context, uint32_t i, double *x, double *z)
 {
     const struct entities *m = context->m;
-    const struct force_base *base = &context->world->params->base[m->force[i] % FORCE_COUNT];
+    const struct force_base *base = &context->world->params->base[m->row[i].force % FORCE_COUNT];
     *x = base->x;
     *z = base->z;
-    if (kind_hovers(&context->world->kinds[m->kind[i]]))
+    if (kind_hovers(&context->world->kinds[m->row[i].kind]))
         landing_place_find(context, i, x, z);
 }
 
 void goal_base(const struct step_context *context, uint32_t i)
 {
-    base_place(context, i, &context->m->goal_x[i], &context->m->goal_z[i]);
+    base_place(context, i, &context->m->row[i].goal_x, &context->m->row[i].goal_z);
 }
 
 static bool within(const struct step_context *context, uint32_t i, double x, double z,
                    double metres)
 {
     const struct entities *m = context->m;
-    const struct kind *kind = &context->world->kinds[m->kind[i]];
-    double dx = x - m->x[i], dz = z - m->z[i];
+    const struct kind *kind = &context->world->kinds[m->row[i].kind];
+    double dx = x - m->row[i].x, dz = z - m->row[i].z;
     /* A jet's turning radius is speed over turn rate. */
     if (kind->min_speed_mps > 0.0)
         metres =
@@ -253,43 +254,43 @@ static bool within(const struct step_context *context, uint32_t i, double x, dou
 
 bool goal_arrived(const struct step_context *context, uint32_t i)
 {
-    return within(context, i, context->m->goal_x[i], context->m->goal_z[i], ARRIVED_M);
+    return within(context, i, context->m->row[i].goal_x, context->m->row[i].goal_z, ARRIVED_M);
 }
 
 bool goal_in_position(const struct step_context *context, uint32_t i)
 {
     const struct entities *m = context->m;
-    double dx = m->goal_x[i] - m->x[i], dz = m->goal_z[i] - m->z[i];
+    double dx = m->row[i].goal_x - m->row[i].x, dz = m->row[i].goal_z - m->row[i].z;
     return dx * dx + dz * dz < IN_PLACE_M * IN_PLACE_M;
 }
 
 bool goal_at_base(const struct step_context *context, uint32_t i)
 {
     const struct entities *m = context->m;
-    const enum domain domain = (enum domain)context->world->kinds[m->kind[i]].domain;
+    const enum domain domain = (enum domain)context->world->kinds[m->row[i].kind].domain;
     double x, z;
     base_place(context, i, &x, &z);
     if (within(context, i, x, z, domain == DOMAIN_AIR ? ARRIVED_M : HOME_M))
         return true;
-    return domain == DOMAIN_SEA && m->goal_x[i] != x && goal_arrived(context, i);
+    return domain == DOMAIN_SEA && m->row[i].goal_x != x && goal_arrived(context, i);
 }
 
 void goal_blocked(const struct step_context *context, uint32_t i)
 {
     struct entities *m = context->m;
-    switch ((enum behaviour)m->behaviour[i]) {
+    switch ((enum behaviour)m->row[i].behaviour) {
     case BEHAVIOUR_FLEE:
         goal_away(context, i, TWO_PI * unit(context, i, RANDOM_GOAL_X), FLEE_M);
         break;
     case BEHAVIOUR_WITHDRAW:
-        if (context->world->kinds[m->kind[i]].domain == DOMAIN_SEA)
+        if (context->world->kinds[m->row[i].kind].domain == DOMAIN_SEA)
             goal_away(context, i, 0.0, 0.0);
         else
             goal_away(context, i, TWO_PI * unit(context, i, RANDOM_GOAL_X), DETOUR_M);
         break;
     case BEHAVIOUR_ROUTE:
-        if (context->world->routes[m->order_arg[i]].once)
-            mission_route_blocked(context, i, &context->world->routes[m->order_arg[i]]);
+        if (context->world->routes[m->row[i].order_arg].once)
+            mission_route_blocked(context, i, &context->world->routes[m->row[i].order_arg]);
         else
             goal_next(context, i);
         break;

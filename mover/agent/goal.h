@@ -1,4 +1,4 @@
-/* The goal columns of row i: where its behaviour takes it. Any thread, each its own row. */
+/* The goal fields of row i: where its behaviour takes it. Any thread, each its own row. */
 #ifndef JOLON_MOVER_AGENT_GOAL_H
 #define JOLON_MOVER_AGENT_GOAL_H
 

@@ -58,7 +58,7 @@ static bool has_objects(const struct step_context *context, double x, double z, 
 /* How much room row i needs around its middle [m]. */
 static double reach_of(const struct step_context *context, uint32_t i)
 {
-    return context->world->kinds[context->m->kind[i]].radius_m + GAP_M;
+    return context->world->kinds[context->m->row[i].kind].radius_m + GAP_M;
 }
 
 /* Returns true if a vehicle other than row i is within reach_m of a point, on the ground or, of the
@@ -74,8 +74,8 @@ static bool has_vehicles(const struct step_context *context, uint32_t i, double 
     while ((entry = neighbour_query_next(&query)) != NULL) {
         const struct kind *kind = &context->world->kinds[entry->kind];
         double most = reach_m + kind->radius_m;
-        bool flies = kind->domain == DOMAIN_AIR && w->state[entry->row] == ENTITY_ACTIVE &&
-                     !(w->flags[entry->row] & ENTITY_FLAG_LANDED);
+        bool flies = kind->domain == DOMAIN_AIR && w->row[entry->row].state == ENTITY_ACTIVE &&
+                     !(w->row[entry->row].flags & ENTITY_FLAG_LANDED);
         if (entry->row != i && (!flies || entry->row < before) &&
             neighbour_index_within(entry, x, z, most * most))
             return true;
@@ -94,7 +94,7 @@ static struct vec3 place_at(const struct world *world, double x, double z, uint3
 
 void landing_place_find(const struct step_context *context, uint32_t i, double *x, double *z)
 {
-    const uint32_t number = context->m->id[i] % PLACES;
+    const uint32_t number = context->m->row[i].id % PLACES;
     struct vec3 place = place_at(context->world, *x, *z, number);
     for (uint32_t turn = 1; turn < TURNS && has_vehicles(context, i, place.x, place.z, i); turn++)
         place = place_at(context->world, *x, *z, number + turn * PLACES);
@@ -105,7 +105,7 @@ void landing_place_find(const struct step_context *context, uint32_t i, double *
 bool landing_place_is_clear(const struct step_context *context, uint32_t i)
 {
     const struct entities *m = context->m;
-    double x = m->x[i], z = m->z[i], reach_m = reach_of(context, i);
+    double x = m->row[i].x, z = m->row[i].z, reach_m = reach_of(context, i);
     return is_level(context, x, z, reach_m) && !has_objects(context, x, z, reach_m) &&
            !has_vehicles(context, i, x, z, UINT32_MAX);
 }

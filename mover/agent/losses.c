@@ -17,7 +17,7 @@ struct losses {
 static void count(const struct entities *w, uint32_t slot, struct losses *losses)
 {
     losses->all++;
-    losses->lost += w->state[slot] != ENTITY_ACTIVE;
+    losses->lost += w->row[slot].state != ENTITY_ACTIVE;
 }
 
 /* Counts the vehicle that the scenario put into the slot. Another entity may have its slot by now.
@@ -25,13 +25,14 @@ static void count(const struct entities *w, uint32_t slot, struct losses *losses
 static void count_member(const struct entities *w, uint32_t slot, struct losses *losses)
 {
     losses->all++;
-    losses->lost += !entities_alive(w, slot, slot + 1) || w->state[slot] != ENTITY_ACTIVE;
+    losses->lost += !entities_alive(w, slot, slot + 1) || w->row[slot].state != ENTITY_ACTIVE;
 }
 
 static bool same_group(const struct entities *w, uint32_t a, uint32_t b)
 {
-    return w->state[b] != ENTITY_FREE && w->kind[a] == w->kind[b] && w->force[a] == w->force[b] &&
-           w->order[a] == w->order[b] && w->order_arg[a] == w->order_arg[b];
+    return w->row[b].state != ENTITY_FREE && w->row[a].kind == w->row[b].kind &&
+           w->row[a].force == w->row[b].force && w->row[a].order == w->row[b].order &&
+           w->row[a].order_arg == w->row[b].order_arg;
 }
 
 /* Counts the vehicles beside row i that have the same kind, force and order. */
@@ -52,10 +53,10 @@ static const struct formation *formation_of(const struct step_context *context, 
     const struct entities *w = &context->committed->entities;
     uint32_t used = context->committed->head->used;
     for (uint32_t slot = i; slot < used && slot <= i + 1; slot++) {
-        if (w->order[slot] != BEHAVIOUR_FOLLOW ||
-            w->order_arg[slot] >= context->world->counts.formations)
+        if (w->row[slot].order != BEHAVIOUR_FOLLOW ||
+            w->row[slot].order_arg >= context->world->counts.formations)
             continue;
-        const struct formation *formation = &context->world->formations[w->order_arg[slot]];
+        const struct formation *formation = &context->world->formations[w->row[slot].order_arg];
         if (i >= formation->first && i - formation->first < formation->count)
             return formation;
     }

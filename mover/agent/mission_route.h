@@ -6,7 +6,7 @@
 
 struct route;
 
-/* Makes the next point of the route row i's goal, and counts it in the column leg. Each vehicle has
+/* Makes the next point of the route row i's goal, and counts it in the field leg. Each vehicle has
  * a place of its own at each point. At the end the goal stays. */
 void mission_route_next(const struct step_context *context, uint32_t i, const struct route *route);
 

@@ -36,7 +36,7 @@ static const double courage_left[DAMAGE_COUNT] = {1.0, 0.95, 0.6, 0.3, 0.0};
 
 static const struct behaviour_table *table_of(const struct step_context *context, uint32_t i)
 {
-    return &behaviour_tables[context->world->kinds[context->m->kind[i]].doctrine];
+    return &behaviour_tables[context->world->kinds[context->m->row[i].kind].doctrine];
 }
 
 uint32_t perception_think_frames(const struct params *params, uint32_t used)
@@ -55,7 +55,7 @@ uint32_t perception_look_frames(const struct params *params, uint32_t used)
 
 bool perception_decides(const struct step_context *context, uint32_t i)
 {
-    if (context->m->order[i] == BEHAVIOUR_SCRIPT)
+    if (context->m->row[i].order == BEHAVIOUR_SCRIPT)
         return (context->tick - 1) % context->think_frames == 0;
     return step_context_thinks(context, i);
 }
@@ -67,7 +67,7 @@ bool perception_looks_out(const struct step_context *context, uint32_t i)
 
 static bool looks_now(const struct step_context *context, uint32_t i)
 {
-    return ((uint32_t)context->tick + context->m->id[i]) % context->look_frames == 0 ||
+    return ((uint32_t)context->tick + context->m->row[i].id) % context->look_frames == 0 ||
            cruise_start_due(context, i, context->look_frames);
 }
 
@@ -75,7 +75,8 @@ static bool looks_now(const struct step_context *context, uint32_t i)
 
 bool perception_in_sight(const struct step_context *context, uint32_t i)
 {
-    return (uint32_t)context->tick - context->m->seen_tick[i] <= SEEN_LOOKS * context->look_frames;
+    return (uint32_t)context->tick - context->m->row[i].seen_tick <=
+           SEEN_LOOKS * context->look_frames;
 }
 
 /* --- odds and courage --------------------------------------------------------------------------*/
@@ -84,7 +85,7 @@ static uint32_t count_near(const struct step_context *context, uint32_t i, uint3
 {
     const struct entities *w = &context->committed->entities;
     struct neighbour_query query =
-        neighbour_query_begin(context->neighbours, layers, w->x[i], w->z[i], ODDS_M);
+        neighbour_query_begin(context->neighbours, layers, w->row[i].x, w->row[i].z, ODDS_M);
     uint32_t count = 0;
     while (count < ODDS_MOST && neighbour_query_next(&query))
         count++;
@@ -95,7 +96,7 @@ static uint32_t count_near(const struct step_context *context, uint32_t i, uint3
 static void odds(const struct step_context *context, uint32_t i, uint32_t *friends,
                  uint32_t *enemies)
 {
-    uint8_t force = context->committed->entities.force[i];
+    uint8_t force = context->committed->entities.row[i].force;
     *friends = force == FORCE_NEUTRAL || force >= FORCE_COUNT
                    ? 1
                    : count_near(context, i, NEIGHBOUR_INDEX_LAYER(force));
@@ -107,13 +108,13 @@ static void odds(const struct step_context *context, uint32_t i, uint32_t *frien
 static bool brave(const struct step_context *context, uint32_t i)
 {
     const struct entities *m = context->m;
-    double courage = context->world->kinds[m->kind[i]].courage;
+    double courage = context->world->kinds[m->row[i].kind].courage;
     uint32_t friends, enemies;
     odds(context, i, &friends, &enemies);
-    if (m->damage[i] < DAMAGE_COUNT)
-        courage *= courage_left[m->damage[i]];
+    if (m->row[i].damage < DAMAGE_COUNT)
+        courage *= courage_left[m->row[i].damage];
     courage *= maths_min(1.0, (double)friends / (double)enemies);
-    return random_unit(context->world->params->seed, context->tick, m->id[i], RANDOM_COURAGE) <
+    return random_unit(context->world->params->seed, context->tick, m->row[i].id, RANDOM_COURAGE) <
            courage;
 }
 
@@ -121,28 +122,28 @@ static bool brave(const struct step_context *context, uint32_t i)
 
 static bool is_disarmed(const struct step_context *context, uint32_t i)
 {
-    return disabled_gun(&context->world->kinds[context->m->kind[i]], context->m, i);
+    return disabled_gun(&context->world->kinds[context->m->row[i].kind], context->m, i);
 }
 
 bool perception_armed(const struct step_context *context, uint32_t i)
 {
     const struct entities *m = context->m;
-    return context->world->kinds[m->kind[i]].munition != KIND_NONE && m->rounds[i] > 0 &&
-           !(m->flags[i] & ENTITY_FLAG_HOLD_FIRE) && !is_disarmed(context, i);
+    return context->world->kinds[m->row[i].kind].munition != KIND_NONE && m->row[i].rounds > 0 &&
+           !(m->row[i].flags & ENTITY_FLAG_HOLD_FIRE) && !is_disarmed(context, i);
 }
 
 /* Returns true if its fuel is only just enough for the path to its base. */
 static bool low_fuel(const struct step_context *context, uint32_t i)
 {
     const struct entities *m = context->m;
-    const struct kind *kind = &context->world->kinds[m->kind[i]];
+    const struct kind *kind = &context->world->kinds[m->row[i].kind];
     if (!(kind->fuel_l > 0.0))
         return false;
-    const struct force_base *base = &context->world->params->base[m->force[i] % FORCE_COUNT];
-    double dx = base->x - m->x[i], dz = base->z - m->z[i];
+    const struct force_base *base = &context->world->params->base[m->row[i].force % FORCE_COUNT];
+    double dx = base->x - m->row[i].x, dz = base->z - m->row[i].z;
     double needed_l =
         sqrt(dx * dx + dz * dz) * kind->fuel_lps / maths_max(kind->max_speed_mps, 1e-9);
-    return m->fuel_l[i] < FUEL_MARGIN * needed_l + FUEL_RESERVE * kind->fuel_l;
+    return m->row[i].fuel_l < FUEL_MARGIN * needed_l + FUEL_RESERVE * kind->fuel_l;
 }
 
 /* Returns true if it has no rounds left; also if it spares its last ones in a fight from which it
@@ -150,17 +151,17 @@ static bool low_fuel(const struct step_context *context, uint32_t i)
 static bool without_rounds(const struct step_context *context, uint32_t i, uint32_t percepts)
 {
     const struct entities *m = context->m;
-    const struct kind *kind = &context->world->kinds[m->kind[i]];
+    const struct kind *kind = &context->world->kinds[m->row[i].kind];
     if (kind->munition == KIND_NONE || kind->rounds == 0)
         return false;
     bool may_go = (percepts & PERCEPTION_BIT(TARGET)) && !(percepts & PERCEPTION_BIT(STAND));
-    return m->rounds[i] == 0 || (m->behaviour[i] == BEHAVIOUR_ATTACK && may_go &&
-                                 fire_control_spares(context, i, m->target_slot[i]));
+    return m->row[i].rounds == 0 || (m->row[i].behaviour == BEHAVIOUR_ATTACK && may_go &&
+                                     fire_control_spares(context, i, m->row[i].target_slot));
 }
 
 static bool has_arrived(const struct step_context *context, uint32_t i)
 {
-    enum behaviour behaviour = (enum behaviour)context->m->behaviour[i];
+    enum behaviour behaviour = (enum behaviour)context->m->row[i].behaviour;
     return behaviour == BEHAVIOUR_WITHDRAW     ? goal_at_base(context, i)
            : behaviour == BEHAVIOUR_REPOSITION ? goal_in_position(context, i)
                                                : false;
@@ -169,10 +170,10 @@ static bool has_arrived(const struct step_context *context, uint32_t i)
 static uint32_t notice_state(const struct step_context *context, uint32_t i)
 {
     const struct entities *m = context->m, *w = &context->committed->entities;
-    const struct kind *kind = &context->world->kinds[m->kind[i]];
-    uint32_t target = m->target_slot[i], percepts = 0;
-    uint8_t flags = m->flags[i];
-    if (kind->fuel_l > 0.0 && m->fuel_l[i] <= 0.0)
+    const struct kind *kind = &context->world->kinds[m->row[i].kind];
+    uint32_t target = m->row[i].target_slot, percepts = 0;
+    uint8_t flags = m->row[i].flags;
+    if (kind->fuel_l > 0.0 && m->row[i].fuel_l <= 0.0)
         percepts |= PERCEPTION_BIT(NO_FUEL);
     if (perception_armed(context, i))
         percepts |= PERCEPTION_BIT(ARMED);
@@ -180,20 +181,21 @@ static uint32_t notice_state(const struct step_context *context, uint32_t i)
         percepts |= PERCEPTION_BIT(AT_WILL);
     if ((flags & ENTITY_FLAG_STAND) || disabled_drive(kind, m, i))
         percepts |= PERCEPTION_BIT(STAND);
-    if (m->target_id[i] != 0)
-        percepts |= entities_alive(w, target, m->target_id[i]) && w->state[target] == ENTITY_ACTIVE
-                        ? PERCEPTION_BIT(TARGET)
-                        : PERCEPTION_BIT(TARGET_GONE);
+    if (m->row[i].target_id != 0)
+        percepts |=
+            entities_alive(w, target, m->row[i].target_id) && w->row[target].state == ENTITY_ACTIVE
+                ? PERCEPTION_BIT(TARGET)
+                : PERCEPTION_BIT(TARGET_GONE);
     if (without_rounds(context, i, percepts))
         percepts |= PERCEPTION_BIT(NO_ROUNDS);
-    if (context->tick >= m->until_tick[i])
+    if (context->tick >= m->row[i].until_tick)
         percepts |= PERCEPTION_BIT(TIME_OVER);
-    if (m->behaviour[i] == BEHAVIOUR_DRIVEN && m->driver[i] != 0 &&
-        context->tick > m->until_tick[i])
+    if (m->row[i].behaviour == BEHAVIOUR_DRIVEN && m->row[i].driver != 0 &&
+        context->tick > m->row[i].until_tick)
         percepts |= PERCEPTION_BIT(LEASE_OVER);
     if (has_arrived(context, i))
         percepts |= PERCEPTION_BIT(ARRIVED);
-    if (m->behaviour[i] == BEHAVIOUR_ATTACK && fire_control_salvo_over(context, i))
+    if (m->row[i].behaviour == BEHAVIOUR_ATTACK && fire_control_salvo_over(context, i))
         percepts |= PERCEPTION_BIT(ROUNDS_FIRED);
     if (perception_decides(context, i) && progress_stalled(context, i)) {
         percepts |= PERCEPTION_BIT(STALLED);
@@ -206,47 +208,48 @@ static uint32_t notice_state(const struct step_context *context, uint32_t i)
 static bool hurt(const struct step_context *context, uint32_t i)
 {
     const struct entities *m = context->m;
-    return (uint32_t)context->tick - m->changed_tick[i] <= HURT_FRAMES &&
-           m->damage[i] >= DAMAGE_MED;
+    return (uint32_t)context->tick - m->row[i].changed_tick <= HURT_FRAMES &&
+           m->row[i].damage >= DAMAGE_MED;
 }
 
 bool perception_hurt_soon(const struct step_context *context, uint32_t i)
 {
-    return (uint32_t)context->tick + 1 - context->m->changed_tick[i] <= HURT_FRAMES &&
-           context->m->damage[i] >= DAMAGE_MED;
+    return (uint32_t)context->tick + 1 - context->m->row[i].changed_tick <= HURT_FRAMES &&
+           context->m->row[i].damage >= DAMAGE_MED;
 }
 
 bool perception_event(const struct step_context *context, uint32_t i)
 {
     const struct entities *m = context->m;
-    return m->threat_id[i] != 0 || m->bumped[i] != 0 || hurt(context, i);
+    return m->row[i].threat_id != 0 || m->row[i].bumped != 0 || hurt(context, i);
 }
 
 /* An aircraft evades the fire of air defence. */
 static bool evades(const struct step_context *context, uint32_t i, uint32_t threat)
 {
-    return threat != SLOT_NONE && context->world->kinds[context->m->kind[i]].domain == DOMAIN_AIR &&
+    return threat != SLOT_NONE &&
+           context->world->kinds[context->m->row[i].kind].domain == DOMAIN_AIR &&
            fire_control_air_defence(context, threat);
 }
 
 static void notice_events(const struct step_context *context, uint32_t i, struct notice *notice)
 {
     const struct entities *m = context->m, *w = &context->committed->entities;
-    uint32_t slot = m->threat_slot[i];
-    if (m->threat_id[i] != 0 && entities_alive(w, slot, m->threat_id[i]) &&
-        w->state[slot] == ENTITY_ACTIVE) {
+    uint32_t slot = m->row[i].threat_slot;
+    if (m->row[i].threat_id != 0 && entities_alive(w, slot, m->row[i].threat_id) &&
+        w->row[slot].state == ENTITY_ACTIVE) {
         notice->percepts |= PERCEPTION_BIT(SHOT);
         notice->threat = slot;
     }
-    if (m->bumped[i] != 0)
+    if (m->row[i].bumped != 0)
         notice->percepts |= PERCEPTION_BIT(BUMP);
     if (hurt(context, i))
         notice->percepts |= PERCEPTION_BIT(HURT);
-    if ((m->flags[i] & ENTITY_FLAG_BURST) || evades(context, i, notice->threat))
+    if ((m->row[i].flags & ENTITY_FLAG_BURST) || evades(context, i, notice->threat))
         notice->percepts |= PERCEPTION_BIT(SUPPRESSED);
-    m->threat_slot[i] = m->threat_id[i] = 0;
-    m->bumped[i] = 0;
-    m->flags[i] &= (uint8_t)~ENTITY_FLAG_BURST;
+    m->row[i].threat_slot = m->row[i].threat_id = 0;
+    m->row[i].bumped = 0;
+    m->row[i].flags &= (uint8_t)~ENTITY_FLAG_BURST;
 }
 
 /* --- looks -------------------------------------------------------------------------------------*/
@@ -255,16 +258,16 @@ static void notice_events(const struct step_context *context, uint32_t i, struct
 static bool matters(const struct step_context *context, uint32_t i, uint32_t percepts,
                     uint32_t also)
 {
-    return behaviour_table_differs(table_of(context, i), (enum behaviour)context->m->behaviour[i],
-                                   percepts, also);
+    return behaviour_table_differs(table_of(context, i),
+                                   (enum behaviour)context->m->row[i].behaviour, percepts, also);
 }
 
 static void fight_on(const struct step_context *context, uint32_t i, uint32_t enemy)
 {
     const struct entities *m = context->m;
-    goal_target(context, i, enemy, context->committed->entities.id[enemy]);
-    m->seen_tick[i] = (uint32_t)context->tick;
-    m->until_tick[i] =
+    goal_target(context, i, enemy, context->committed->entities.row[enemy].id);
+    m->row[i].seen_tick = (uint32_t)context->tick;
+    m->row[i].until_tick =
         (uint32_t)(context->tick + (uint64_t)(BEHAVIOUR_TABLE_FIGHT_S / context->dt_s));
 }
 
@@ -281,7 +284,7 @@ static bool in_reach(const struct step_context *context, uint32_t i, uint32_t ot
 /* In a fight: looks for its target, and for another enemy if it does not see the target. */
 static void watch_target(const struct step_context *context, uint32_t i)
 {
-    uint32_t seen = context->m->target_slot[i];
+    uint32_t seen = context->m->row[i].target_slot;
     if (!in_reach(context, i, seen) || !target_search_sees(context, i, seen))
         seen = target_search(context, i, TARGET_SEARCH_ALERT);
     if (seen != SLOT_NONE)
@@ -296,7 +299,7 @@ static void next_target(const struct step_context *context, uint32_t i, struct n
     const uint32_t over = PERCEPTION_BIT(TARGET_GONE) | PERCEPTION_BIT(TIME_OVER);
     uint32_t percepts = notice->percepts & ~over;
     const struct behaviour_table_row *row =
-        behaviour_table_next(table_of(context, i), (enum behaviour)context->m->order[i],
+        behaviour_table_next(table_of(context, i), (enum behaviour)context->m->row[i].order,
                              percepts | PERCEPTION_BIT(ENEMY));
     if (!row || row->to != BEHAVIOUR_ATTACK || row->because != REASON_ENEMY_SEEN)
         return;
@@ -312,7 +315,7 @@ static void notice_look(const struct step_context *context, uint32_t i, struct n
     uint32_t friends, enemies;
     if (low_fuel(context, i))
         notice->percepts |= PERCEPTION_BIT(LOW_FUEL);
-    if (context->m->behaviour[i] == BEHAVIOUR_ATTACK) {
+    if (context->m->row[i].behaviour == BEHAVIOUR_ATTACK) {
         if (!(notice->percepts & PERCEPTION_BIT(TARGET)))
             return;
         watch_target(context, i);
@@ -332,15 +335,15 @@ static void notice_look(const struct step_context *context, uint32_t i, struct n
 static bool is_on_surface(const struct step_context *context, uint32_t row)
 {
     return row != SLOT_NONE &&
-           context->world->kinds[context->committed->entities.kind[row]].domain != DOMAIN_AIR;
+           context->world->kinds[context->committed->entities.row[row].kind].domain != DOMAIN_AIR;
 }
 
 /* Returns true if it backs off in its flight from a target that it does not fight. */
 static bool fled_from(const struct step_context *context, uint32_t i, uint32_t percepts)
 {
-    return context->m->behaviour[i] == BEHAVIOUR_BACK_OFF &&
+    return context->m->row[i].behaviour == BEHAVIOUR_BACK_OFF &&
            (percepts & PERCEPTION_BIT(TARGET)) != 0 &&
-           !fire_control_fights(context, i, context->m->target_slot[i]);
+           !fire_control_fights(context, i, context->m->row[i].target_slot);
 }
 
 struct notice perception_notice(const struct step_context *context, uint32_t i)
@@ -351,7 +354,7 @@ struct notice perception_notice(const struct step_context *context, uint32_t i)
         notice.percepts &= PERCEPTION_BIT(NO_FUEL) | PERCEPTION_BIT(LEASE_OVER);
         return notice;
     }
-    if (context->m->behaviour[i] == BEHAVIOUR_ATTACK &&
+    if (context->m->row[i].behaviour == BEHAVIOUR_ATTACK &&
         (notice.percepts & PERCEPTION_BIT(TARGET_GONE)))
         next_target(context, i, &notice);
     if (looks_now(context, i))
@@ -380,7 +383,7 @@ struct notice perception_notice(const struct step_context *context, uint32_t i)
 bool perception_settled(const struct step_context *context, uint32_t i)
 {
     uint32_t percepts = notice_state(context, i);
-    enum behaviour behaviour = (enum behaviour)context->m->behaviour[i];
+    enum behaviour behaviour = (enum behaviour)context->m->row[i].behaviour;
     return !behaviour_table_next(table_of(context, i), behaviour, percepts) &&
            !low_fuel(context, i) && !matters(context, i, percepts, PERCEPTION_BIT(ENEMY)) &&
            !matters(context, i, percepts, PERCEPTION_BIT(BRAVE)) &&

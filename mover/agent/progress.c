@@ -23,7 +23,7 @@
 #define TRIED_S    2.0  /* and such a try is in vain after this time */
 #define PERIOD_S   12.0 /* in each of these */
 
-/* The column stalled: a count of decisions, and how often the vehicle has been stuck since it last
+/* The field stalled: a count of decisions, and how often the vehicle has been stuck since it last
  * got on. */
 #define STALLED_COUNT 0x3fu
 #define STALLED_ONCE  0x40u /* it backs off */
@@ -35,7 +35,7 @@ static uint8_t stuck_again(const struct step_context *context, uint32_t i, uint8
 {
     if (before == 0)
         return STALLED_ONCE;
-    double draw = random_unit(context->world->params->seed, context->tick, context->m->id[i],
+    double draw = random_unit(context->world->params->seed, context->tick, context->m->row[i].id,
                               RANDOM_GIVES_UP);
     return before == STALLED_AGAIN && draw < GIVES_UP ? STALLED_FAST : STALLED_AGAIN;
 }
@@ -45,28 +45,28 @@ static bool count_on(const struct step_context *context, uint32_t i, double ever
                      double patience_s)
 {
     struct entities *m = context->m;
-    uint8_t before = m->stalled[i] & (uint8_t)~STALLED_COUNT;
-    uint32_t count = (m->stalled[i] & STALLED_COUNT) + 1u;
+    uint8_t before = m->row[i].stalled & (uint8_t)~STALLED_COUNT;
+    uint32_t count = (m->row[i].stalled & STALLED_COUNT) + 1u;
     if (count * every_s < patience_s && count < STALLED_COUNT) {
-        m->stalled[i] = (uint8_t)(before | count);
+        m->row[i].stalled = (uint8_t)(before | count);
         return false;
     }
-    m->stalled[i] = stuck_again(context, i, before);
+    m->row[i].stalled = stuck_again(context, i, before);
     return true;
 }
 
 /* Returns true if a land vehicle would drive, and stands because no way before it is free. */
 static bool waits(const struct entities *m, uint32_t i, const struct kind *kind)
 {
-    return kind->domain == DOMAIN_LAND && m->behaviour[i] != BEHAVIOUR_DRIVEN &&
-           m->ease[i] > WAITS_EASE;
+    return kind->domain == DOMAIN_LAND && m->row[i].behaviour != BEHAVIOUR_DRIVEN &&
+           m->row[i].ease > WAITS_EASE;
 }
 
 /* Returns true if row i has touched another body for a while and presses on it. */
 static bool touches(const struct step_context *context, uint32_t i)
 {
     const struct state *committed = context->committed;
-    const uint32_t id = context->m->id[i], tick = (uint32_t)committed->head->tick;
+    const uint32_t id = context->m->row[i].id, tick = (uint32_t)committed->head->tick;
     const uint32_t frames = (uint32_t)(TOUCHES_S / context->dt_s);
     for (uint32_t n = 0; n < committed->head->contact_count; n++) {
         const struct persistent_contact *contact = &committed->contacts[n];
@@ -83,7 +83,7 @@ static bool gets_on(const struct step_context *context, uint32_t i, double speed
 {
     if (speed < maths_max(SLOW_MPS, SLOW_SHARE * wanted))
         return false;
-    return !(context->m->flags[i] & ENTITY_FLAG_CHASSIS) || speed >= SCRAPES * wanted ||
+    return !(context->m->row[i].flags & ENTITY_FLAG_CHASSIS) || speed >= SCRAPES * wanted ||
            !touches(context, i);
 }
 
@@ -91,19 +91,20 @@ bool progress_stalled(const struct step_context *context, uint32_t i)
 {
     struct entities *m = context->m;
     const double think_s = context->think_frames * context->dt_s;
-    const struct kind *kind = &context->world->kinds[m->kind[i]];
-    double wanted = fabs((double)m->throttle[i]) * kind->max_speed_mps;
+    const struct kind *kind = &context->world->kinds[m->row[i].kind];
+    double wanted = fabs((double)m->row[i].throttle) * kind->max_speed_mps;
     bool drives = kind->domain != DOMAIN_AIR && wanted >= DRIVES_MPS;
     if (!drives && !waits(m, i, kind)) {
-        m->stalled[i] &= (uint8_t)~STALLED_COUNT;
+        m->row[i].stalled &= (uint8_t)~STALLED_COUNT;
         return false;
     }
-    if (gets_on(context, i, sqrt(m->vx[i] * m->vx[i] + m->vz[i] * m->vz[i]), wanted)) {
-        m->stalled[i] = 0;
+    if (gets_on(context, i, sqrt(m->row[i].vx * m->row[i].vx + m->row[i].vz * m->row[i].vz),
+                wanted)) {
+        m->row[i].stalled = 0;
         return false;
     }
     if (!drives)
-        return (context->tick / context->think_frames + m->id[i]) % WAITS_TURN == 0 &&
+        return (context->tick / context->think_frames + m->row[i].id) % WAITS_TURN == 0 &&
                count_on(context, i, WAITS_TURN * think_s,
                         progress_stuck(context, i) ? TRIED_S : WAITS_S);
     double patience = progress_stuck(context, i) ? TRIED_S : STALLED_S;
@@ -115,18 +116,18 @@ bool progress_stalled(const struct step_context *context, uint32_t i)
 
 bool progress_stuck(const struct step_context *context, uint32_t i)
 {
-    return (context->m->stalled[i] & STALLED_AGAIN) != 0;
+    return (context->m->row[i].stalled & STALLED_AGAIN) != 0;
 }
 
 bool progress_gives_up(const struct step_context *context, uint32_t i)
 {
-    return (context->m->stalled[i] & STALLED_FAST) == STALLED_FAST;
+    return (context->m->row[i].stalled & STALLED_FAST) == STALLED_FAST;
 }
 
 bool progress_rests(const struct step_context *context, uint32_t i)
 {
     double middle_s = ((double)context->tick - 0.5) * context->dt_s; /* of the frame */
-    double periods = (middle_s + (double)(context->m->id[i] % 12u)) / PERIOD_S;
+    double periods = (middle_s + (double)(context->m->row[i].id % 12u)) / PERIOD_S;
     return progress_stuck(context, i) && periods - floor(periods) >= TRIES_S / PERIOD_S;
 }
 
@@ -135,7 +136,7 @@ double progress_way_out(const struct step_context *context, uint32_t i, bool tri
     const struct entities *m = context->m;
     uint64_t decision = (context->tick - 1) / context->think_frames; /* the same at any rate */
     double side =
-        random_between(context->world->params->seed, decision, m->id[i], RANDOM_STUCK, -1, 1);
-    double back = m->heading[i] + (m->throttle[i] < 0.0f ? 0.0 : PI);
+        random_between(context->world->params->seed, decision, m->row[i].id, RANDOM_STUCK, -1, 1);
+    double back = m->row[i].heading + (m->row[i].throttle < 0.0f ? 0.0 : PI);
     return back + side * (tried ? PI : SIDE_RAD);
 }

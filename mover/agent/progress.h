@@ -1,4 +1,4 @@
-/* Whether a vehicle gets on. Writes the column stalled of row i. Any thread, each its own row. */
+/* Whether a vehicle gets on. Writes the field stalled of row i. Any thread, each its own row. */
 #ifndef JOLON_MOVER_AGENT_PROGRESS_H
 #define JOLON_MOVER_AGENT_PROGRESS_H
 

@@ -33,12 +33,12 @@ struct reading {
 static struct reading read_row(const struct step_context *context, uint32_t i)
 {
     const struct world *world = context->world;
-    const struct script *script = &world->scripts[context->m->order_arg[i]];
+    const struct script *script = &world->scripts[context->m->row[i].order_arg];
     return (struct reading){
         .context = context,
         .script = script,
         .steps = world->script_steps + script->first,
-        .kind = &world->kinds[context->m->kind[i]],
+        .kind = &world->kinds[context->m->row[i].kind],
         .i = i,
         .begin_s = (double)(context->tick - 1) * context->dt_s,
         .end_s = (double)context->tick * context->dt_s,
@@ -47,12 +47,12 @@ static struct reading read_row(const struct step_context *context, uint32_t i)
 
 static uint32_t pass_of(const struct reading *r)
 {
-    return r->context->m->leg[r->i] / r->script->count;
+    return r->context->m->row[r->i].leg / r->script->count;
 }
 
 static const struct script_step *step_of(const struct reading *r)
 {
-    return &r->steps[r->context->m->leg[r->i] % r->script->count];
+    return &r->steps[r->context->m->row[r->i].leg % r->script->count];
 }
 
 /* Returns the time left until the step is due: an arrival at the end of a frame, and any other step
@@ -77,9 +77,9 @@ static uint32_t tick_after(const struct reading *r, double seconds)
 static void say(const struct reading *r, enum behaviour behaviour, enum agent_reason reason)
 {
     struct entities *m = r->context->m;
-    m->behaviour[r->i] = (uint8_t)behaviour;
-    m->trigger[r->i] = (uint8_t)((m->trigger[r->i] & (TRIGGER_FIRE | TRIGGER_FIRE_AT)) |
-                                 (unsigned)(reason + 1) << TRIGGER_REASON_SHIFT);
+    m->row[r->i].behaviour = (uint8_t)behaviour;
+    m->row[r->i].trigger = (uint8_t)((m->row[r->i].trigger & (TRIGGER_FIRE | TRIGGER_FIRE_AT)) |
+                                     (unsigned)(reason + 1) << TRIGGER_REASON_SHIFT);
 }
 
 /* --- from step to step -------------------------------------------------------------------------*/
@@ -87,20 +87,20 @@ static void say(const struct reading *r, enum behaviour behaviour, enum agent_re
 static void begin(const struct reading *r, uint32_t leg)
 {
     struct entities *m = r->context->m;
-    m->leg[r->i] = leg;
-    m->until_tick[r->i] = 0;
-    m->throttle[r->i] = m->steer[r->i] = m->climb[r->i] = 0.0f;
+    m->row[r->i].leg = leg;
+    m->row[r->i].until_tick = 0;
+    m->row[r->i].throttle = m->row[r->i].steer = m->row[r->i].climb = 0.0f;
 }
 
 /* Begins the next step. Returns false if there is none; the row is then idle. */
 static bool begin_next(const struct reading *r)
 {
     struct entities *m = r->context->m;
-    uint32_t leg = m->leg[r->i] + 1;
+    uint32_t leg = m->row[r->i].leg + 1;
     if (leg % r->script->count == 0 && !r->script->repeats) {
-        m->order[r->i] = BEHAVIOUR_IDLE;
-        if (m->trigger[r->i] >> TRIGGER_REASON_SHIFT) /* its arrival is this frame's event */
-            m->behaviour[r->i] = BEHAVIOUR_IDLE;
+        m->row[r->i].order = BEHAVIOUR_IDLE;
+        if (m->row[r->i].trigger >> TRIGGER_REASON_SHIFT) /* its arrival is this frame's event */
+            m->row[r->i].behaviour = BEHAVIOUR_IDLE;
         else
             say(r, BEHAVIOUR_IDLE, REASON_SCRIPT);
         return false;
@@ -115,7 +115,7 @@ static bool cut_off(const struct reading *r)
 {
     const struct entities *m = r->context->m;
     const struct script_step *step = step_of(r);
-    uint32_t index = m->leg[r->i] % r->script->count, first = m->leg[r->i] - index;
+    uint32_t index = m->row[r->i].leg % r->script->count, first = m->row[r->i].leg - index;
     if (r->script->period_s > 0.0 &&
         is_time(r, (double)(pass_of(r) + 1) * r->script->period_s - r->begin_s)) {
         begin(r, first + r->script->count);
@@ -138,14 +138,14 @@ static bool cut_off(const struct reading *r)
 static double distance_to(const struct reading *r, const struct script_step *step)
 {
     const struct entities *m = r->context->m;
-    double dx = step->x - m->x[r->i], dz = step->z - m->z[r->i];
+    double dx = step->x - m->row[r->i].x, dz = step->z - m->row[r->i].z;
     return sqrt(dx * dx + dz * dz);
 }
 
 static double speed_now(const struct reading *r)
 {
     const struct entities *m = r->context->m;
-    return sqrt(m->vx[r->i] * m->vx[r->i] + m->vz[r->i] * m->vz[r->i]);
+    return sqrt(m->row[r->i].vx * m->row[r->i].vx + m->row[r->i].vz * m->row[r->i].vz);
 }
 
 /* Braking that it can rely on [m/s2]. A helicopter has to lean back first. */
@@ -182,13 +182,13 @@ static void desire_point(const struct reading *r, const struct script_step *step
 {
     struct entities *m = r->context->m;
     double metres = distance_to(r, step);
-    m->goal_x[r->i] = step->x;
-    m->goal_z[r->i] = step->z;
+    m->row[r->i].goal_x = step->x;
+    m->row[r->i].goal_z = step->z;
     desired->speed_mps = speed;
     if (metres > THERE_M)
-        shunting_drive(r->context, r->i, step->x - m->x[r->i], step->z - m->z[r->i], speed,
+        shunting_drive(r->context, r->i, step->x - m->row[r->i].x, step->z - m->row[r->i].z, speed,
                        desired);
-    double off = maths_wrap_half(desired->heading_rad - m->heading[r->i]), most = speed;
+    double off = maths_wrap_half(desired->heading_rad - m->row[r->i].heading), most = speed;
     if (step->halt) {
         double late = kind_hovers(r->kind) ? FOLLOW_S * slowing(r) : 0.0;
         most = maths_max(sqrt(2.0 * slowing(r) * metres) - late, 0.0);
@@ -247,7 +247,7 @@ static bool face(const struct reading *r, const struct script_step *step,
 /* Waits until its own time, or for a duration since it began. */
 static bool wait(const struct reading *r, const struct script_step *step)
 {
-    uint32_t *until = &r->context->m->until_tick[r->i];
+    uint32_t *until = &r->context->m->row[r->i].until_tick;
     if (step->at_s >= 0.0)
         return is_time(r, seconds_to(r, step) + step->amount);
     if (*until == 0)
@@ -261,9 +261,9 @@ static bool controls(const struct reading *r, const struct script_step *step,
     struct entities *m = r->context->m;
     if (wait(r, step))
         return true;
-    m->throttle[r->i] = step->throttle;
-    m->steer[r->i] = step->steer;
-    m->climb[r->i] = step->climb;
+    m->row[r->i].throttle = step->throttle;
+    m->row[r->i].steer = step->steer;
+    m->row[r->i].climb = step->climb;
     driver_controls_motion(r->context, r->i, desired);
     return false;
 }
@@ -276,37 +276,37 @@ static bool fire(const struct reading *r, const struct script_step *step,
     struct entities *m = r->context->m;
     const struct entities *w = &r->context->committed->entities;
     uint32_t i = r->i, tick = (uint32_t)r->context->tick, target = step->target_slot;
-    bool loaded = tick >= m->reload_tick[i];
-    if (r->kind->munition == KIND_NONE || m->rounds[i] == 0 ||
-        (m->until_tick[i] != 0 && !loaded)) /* it has fired and is loading */
+    bool loaded = tick >= m->row[i].reload_tick;
+    if (r->kind->munition == KIND_NONE || m->row[i].rounds == 0 ||
+        (m->row[i].until_tick != 0 && !loaded)) /* it has fired and is loading */
         return true;
     if (step->type == STEP_FIRE &&
-        (!entities_alive(w, target, target + 1) || w->state[target] != ENTITY_ACTIVE))
+        (!entities_alive(w, target, target + 1) || w->row[target].state != ENTITY_ACTIVE))
         return true;
     if (step->type == STEP_FIRE) {
-        m->target_slot[i] = target;
-        m->target_id[i] = target + 1;
+        m->row[i].target_slot = target;
+        m->row[i].target_id = target + 1;
     }
     if (!loaded)
         return false;
-    if (m->until_tick[i] == 0)
-        m->until_tick[i] = tick_after(r, SHOT_WAIT_S);
-    m->trigger[i] |= step->type == STEP_FIRE ? TRIGGER_FIRE : TRIGGER_FIRE_AT;
-    m->goal_x[i] = step->type == STEP_FIRE ? m->goal_x[i] : step->x;
-    m->goal_z[i] = step->type == STEP_FIRE ? m->goal_z[i] : step->z;
+    if (m->row[i].until_tick == 0)
+        m->row[i].until_tick = tick_after(r, SHOT_WAIT_S);
+    m->row[i].trigger |= step->type == STEP_FIRE ? TRIGGER_FIRE : TRIGGER_FIRE_AT;
+    m->row[i].goal_x = step->type == STEP_FIRE ? m->row[i].goal_x : step->x;
+    m->row[i].goal_z = step->type == STEP_FIRE ? m->row[i].goal_z : step->z;
     struct vec3 at = {step->x, 0.0, step->z};
     if (step->type == STEP_FIRE)
         at = step_context_position(r->context, w, target);
     if (!(r->kind->turret_rate_rps > 0.0))
-        (void)shunting_face(r->context, i, maths_heading(at.x - m->x[i], at.z - m->z[i]), FACED_RAD,
-                            desired);
-    return tick >= m->until_tick[i];
+        (void)shunting_face(r->context, i, maths_heading(at.x - m->row[i].x, at.z - m->row[i].z),
+                            FACED_RAD, desired);
+    return tick >= m->row[i].until_tick;
 }
 
 static bool climb(const struct reading *r, const struct script_step *step)
 {
     const struct entities *m = r->context->m;
-    double height = m->y[r->i] - kinematics_ground(r->context, m->x[r->i], m->z[r->i]);
+    double height = m->row[r->i].y - kinematics_ground(r->context, m->row[r->i].x, m->row[r->i].z);
     return r->kind->domain != DOMAIN_AIR || fabs(height - step->altitude_m) < LEVEL_M;
 }
 
@@ -316,12 +316,12 @@ static void order(const struct reading *r, const struct script_step *step)
 {
     struct entities *m = r->context->m;
     bool home = step->behaviour == BEHAVIOUR_WITHDRAW;
-    m->order[r->i] = (uint8_t)(home ? BEHAVIOUR_IDLE : step->behaviour);
-    m->order_arg[r->i] = step->order_arg;
-    m->leg[r->i] = 0;
-    m->until_tick[r->i] = 0;
-    m->goal_x[r->i] = m->x[r->i]; /* has arrived, so its agent chooses the next goal */
-    m->goal_z[r->i] = m->z[r->i];
+    m->row[r->i].order = (uint8_t)(home ? BEHAVIOUR_IDLE : step->behaviour);
+    m->row[r->i].order_arg = step->order_arg;
+    m->row[r->i].leg = 0;
+    m->row[r->i].until_tick = 0;
+    m->row[r->i].goal_x = m->row[r->i].x; /* has arrived, so its agent chooses the next goal */
+    m->row[r->i].goal_z = m->row[r->i].z;
     if (home) /* to its own place there */
         goal_base(r->context, r->i);
     say(r, (enum behaviour)step->behaviour, REASON_SCRIPT);
@@ -332,7 +332,7 @@ static void order(const struct reading *r, const struct script_step *step)
 static bool do_step(const struct reading *r, struct desired_motion *desired)
 {
     const struct script_step *step = step_of(r);
-    *desired = (struct desired_motion){.heading_rad = r->context->m->heading[r->i],
+    *desired = (struct desired_motion){.heading_rad = r->context->m->row[r->i].heading,
                                        .altitude_m = step->altitude_m};
     if (step->type != STEP_ARRIVE && step->at_s >= 0.0 && !is_time(r, seconds_to(r, step)))
         return false; /* it stands until its time */
@@ -368,19 +368,19 @@ void script_player_motion(const struct step_context *context, uint32_t i,
     for (int n = 0; n < STEPS_A_FRAME && cut_off(&r); n++)
         continue;
     for (int n = 0; n < STEPS_A_FRAME && do_step(&r, desired); n++) {
-        if (!begin_next(&r) || context->m->trigger[i] != 0)
+        if (!begin_next(&r) || context->m->row[i].trigger != 0)
             return;
     }
 }
 
 void script_player_resume(const struct step_context *context, uint32_t i)
 {
-    context->m->until_tick[i] = (uint32_t)context->tick;
+    context->m->row[i].until_tick = (uint32_t)context->tick;
 }
 
 uint32_t script_player_percepts(const struct step_context *context, uint32_t i)
 {
-    const struct script *script = &context->world->scripts[context->m->order_arg[i]];
+    const struct script *script = &context->world->scripts[context->m->row[i].order_arg];
     return script->reacts ? UINT32_MAX
                           : PERCEPTION_BIT(NO_FUEL) | PERCEPTION_BIT(BUMP) |
                                 PERCEPTION_BIT(TIME_OVER) | PERCEPTION_BIT(LEASE_OVER);

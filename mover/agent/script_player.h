@@ -1,7 +1,7 @@
 /* The desired motion of a row on a script. Any thread, each its own row.
  *
- * The column leg is the step: pass * count + step, where passes are counted if the script repeats.
- * The column until_tick is when a wait, held controls or the attempt to fire ends; 0: the step has
+ * The field leg is the step: pass * count + step, where passes are counted if the script repeats.
+ * The field until_tick is when a wait, held controls or the attempt to fire ends; 0: the step has
  * just begun. */
 #ifndef JOLON_MOVER_AGENT_SCRIPT_PLAYER_H
 #define JOLON_MOVER_AGENT_SCRIPT_PLAYER_H

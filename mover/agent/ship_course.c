@@ -86,7 +86,7 @@ static double stopping_speed(const struct kind *kind, double clear)
 static void back_off(const struct entities *m, uint32_t i, const struct kind *kind,
                      struct desired_motion *desired)
 {
-    desired->heading_rad = m->heading[i];
+    desired->heading_rad = m->row[i].heading;
     desired->speed_mps = -ASTERN_MPS * kind->max_speed_mps;
 }
 
@@ -94,29 +94,29 @@ void ship_course_keep(const struct step_context *context, uint32_t i,
                       struct desired_motion *desired)
 {
     const struct entities *m = context->m;
-    const struct kind *kind = &context->world->kinds[m->kind[i]];
-    if (m->flags[i] & ENTITY_FLAG_AGROUND) {
+    const struct kind *kind = &context->world->kinds[m->row[i].kind];
+    if (m->row[i].flags & ENTITY_FLAG_AGROUND) {
         back_off(m, i, kind, desired);
         return;
     }
     if (!(desired->speed_mps > 0.0))
         return;
-    double speed = sqrt(m->vx[i] * m->vx[i] + m->vz[i] * m->vz[i]), clear;
+    double speed = sqrt(m->row[i].vx * m->row[i].vx + m->row[i].vz * m->row[i].vz), clear;
     double fast = maths_max(desired->speed_mps, speed);
     double stops = fast * fast / (2.0 * ASTERN_SHARE * maths_max(kind->acceleration_mps2, 1e-9));
     struct course course = {
-        .x = m->x[i],
-        .z = m->z[i],
+        .x = m->row[i].x,
+        .z = m->row[i].z,
         .far_m = maths_max(stops, LEAST_LENGTHS * kind->length_m) + STOP_LENGTHS * kind->length_m,
         .wide_m = SHALLOW_M,
         .step_m = STEP_M,
     };
-    double heading = choose(context, &course, desired->heading_rad, m->heading[i], &clear);
+    double heading = choose(context, &course, desired->heading_rad, m->row[i].heading, &clear);
     if (clear < STOP_LENGTHS * kind->length_m) { /* a narrow channel */
         course.wide_m = 0.5 * kind->width_m;
-        heading = choose(context, &course, desired->heading_rad, m->heading[i], &clear);
+        heading = choose(context, &course, desired->heading_rad, m->row[i].heading, &clear);
     }
-    double now = clear_along(context, &course, m->heading[i]);
+    double now = clear_along(context, &course, m->row[i].heading);
     desired->heading_rad = maths_wrap_turn(heading);
     desired->speed_mps = maths_min(desired->speed_mps, stopping_speed(kind, maths_min(clear, now)));
 }
@@ -124,9 +124,9 @@ void ship_course_keep(const struct step_context *context, uint32_t i,
 bool ship_course_is_clear(const struct step_context *context, uint32_t i, double x, double z)
 {
     const struct entities *m = context->m;
-    double dx = x - m->x[i], dz = z - m->z[i];
-    struct course course = {.x = m->x[i],
-                            .z = m->z[i],
+    double dx = x - m->row[i].x, dz = z - m->row[i].z;
+    struct course course = {.x = m->row[i].x,
+                            .z = m->row[i].z,
                             .far_m = sqrt(dx * dx + dz * dz),
                             .wide_m = SHALLOW_M,
                             .step_m = LEG_STEP_M};

@@ -18,7 +18,7 @@
 
 bool shunting_has_wheels(const struct step_context *context, uint32_t i)
 {
-    const struct kind *kind = &context->world->kinds[context->m->kind[i]];
+    const struct kind *kind = &context->world->kinds[context->m->row[i].kind];
     return kind->domain == DOMAIN_LAND && !kind->tracked;
 }
 
@@ -37,7 +37,7 @@ static double stroke_mps(const struct kind *kind)
 
 static bool goes_back(const struct step_context *context, uint32_t i)
 {
-    return signbit(context->m->throttle[i]) != 0;
+    return signbit(context->m->row[i].throttle) != 0;
 }
 
 /* Its speed in the direction of its stroke. */
@@ -45,7 +45,7 @@ static double speed_of(const struct step_context *context, uint32_t i)
 {
     const struct entities *m = context->m;
     double sine, cosine, forward, rightward;
-    maths_sincos(m->heading[i], &sine, &cosine);
+    maths_sincos(m->row[i].heading, &sine, &cosine);
     kinematics_along(m, i, sine, cosine, &forward, &rightward);
     return goes_back(context, i) ? -forward : forward;
 }
@@ -53,7 +53,7 @@ static double speed_of(const struct step_context *context, uint32_t i)
 /* The speed that its last look lets it go, of a wanted one. */
 static double allowed(const struct step_context *context, uint32_t i, double wanted_mps)
 {
-    return wanted_mps * (1.0 - (double)context->m->ease[i]);
+    return wanted_mps * (1.0 - (double)context->m->row[i].ease);
 }
 
 static bool is_blocked(const struct step_context *context, uint32_t i, double wanted_mps)
@@ -76,16 +76,16 @@ bool shunting_face(const struct step_context *context, uint32_t i, double headin
                    double exact_rad, struct desired_motion *desired)
 {
     struct entities *m = context->m;
-    bool faces = fabs(maths_wrap_half(heading_rad - m->heading[i])) < exact_rad;
+    bool faces = fabs(maths_wrap_half(heading_rad - m->row[i].heading)) < exact_rad;
     desired->heading_rad = heading_rad;
     desired->speed_mps = 0.0;
     if (faces || !shunting_has_wheels(context, i))
         return faces;
-    double stroke = stroke_mps(&context->world->kinds[m->kind[i]]);
+    double stroke = stroke_mps(&context->world->kinds[m->row[i].kind]);
     bool back = goes_back(context, i);
     if (perception_looks_out(context, i) && is_over(context, i, stroke))
         back = !back;
-    m->dodge[i] = 0.0f;
+    m->row[i].dodge = 0.0f;
     desired->speed_mps = back ? -stroke : stroke;
     desired->shunts = true;
     return false;
@@ -97,12 +97,12 @@ void shunting_drive(const struct step_context *context, uint32_t i, double east_
                     double speed_mps, struct desired_motion *desired)
 {
     const struct entities *m = context->m;
-    const struct kind *kind = &context->world->kinds[m->kind[i]];
+    const struct kind *kind = &context->world->kinds[m->row[i].kind];
     const double most_m = BEHIND * kind->least_turn_m;
     desired->heading_rad = maths_heading(east_m, south_m);
     desired->speed_mps = speed_mps;
     if (!shunting_has_wheels(context, i) || east_m * east_m + south_m * south_m > most_m * most_m ||
-        fabs(maths_wrap_half(desired->heading_rad - m->heading[i])) < HALF_PI)
+        fabs(maths_wrap_half(desired->heading_rad - m->row[i].heading)) < HALF_PI)
         return;
     desired->heading_rad = maths_wrap_turn(desired->heading_rad + PI);
     desired->speed_mps = -maths_min(speed_mps, BACK_SHARE * kind->max_speed_mps);
@@ -116,13 +116,13 @@ static bool circles_goal(const struct step_context *context, uint32_t i,
                          const struct desired_motion *desired, double larger)
 {
     const struct entities *m = context->m;
-    double radius = larger * context->world->kinds[m->kind[i]].least_turn_m;
-    double dx = m->goal_x[i] - m->x[i], dz = m->goal_z[i] - m->z[i], sine, cosine;
+    double radius = larger * context->world->kinds[m->row[i].kind].least_turn_m;
+    double dx = m->row[i].goal_x - m->row[i].x, dz = m->row[i].goal_z - m->row[i].z, sine, cosine;
     double square = dx * dx + dz * dz;
     if (square > 4.0 * radius * radius || square == 0.0 ||
         fabs(maths_wrap_half(maths_heading(dx, dz) - desired->heading_rad)) > NEAR_RAD)
         return false;
-    maths_sincos(m->heading[i], &sine, &cosine);
+    maths_sincos(m->row[i].heading, &sine, &cosine);
     double across = fabs(dx * cosine + dz * sine);
     double inside = maths_max(radius - NEAR_M, 0.0);
     return square - 2.0 * radius * across + radius * radius < inside * inside;
@@ -133,7 +133,8 @@ static double turn_left(const struct step_context *context, uint32_t i,
                         const struct desired_motion *desired)
 {
     const struct entities *m = context->m;
-    return fabs(maths_wrap_half(desired->heading_rad + (double)m->dodge[i] - m->heading[i]));
+    return fabs(
+        maths_wrap_half(desired->heading_rad + (double)m->row[i].dodge - m->row[i].heading));
 }
 
 void shunting_steer(const struct step_context *context, uint32_t i, struct desired_motion *desired)
@@ -141,7 +142,7 @@ void shunting_steer(const struct step_context *context, uint32_t i, struct desir
     if (desired->driven || desired->shunts || !(desired->speed_mps > 0.0) ||
         !shunting_has_wheels(context, i))
         return;
-    double stroke = stroke_mps(&context->world->kinds[context->m->kind[i]]);
+    double stroke = stroke_mps(&context->world->kinds[context->m->row[i].kind]);
     bool back = goes_back(context, i);
     if (perception_looks_out(context, i)) {
         double left = turn_left(context, i, desired);

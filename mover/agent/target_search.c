@@ -23,7 +23,7 @@
 struct vec3 target_search_eye(const struct step_context *context, uint32_t i)
 {
     struct vec3 at = step_context_position(context, &context->committed->entities, i);
-    const struct kind *kind = &context->world->kinds[context->committed->entities.kind[i]];
+    const struct kind *kind = &context->world->kinds[context->committed->entities.row[i].kind];
     if (kind->domain != DOMAIN_AIR)
         at.y += EYE_SHARE * kind->height_m;
     return at;
@@ -32,7 +32,7 @@ struct vec3 target_search_eye(const struct step_context *context, uint32_t i)
 struct vec3 target_search_middle(const struct step_context *context, uint32_t i)
 {
     struct vec3 at = step_context_position(context, &context->committed->entities, i);
-    at.y += kinematics_aim_height(context, context->committed->entities.kind[i]);
+    at.y += kinematics_aim_height(context, context->committed->entities.row[i].kind);
     return at;
 }
 
@@ -46,10 +46,10 @@ struct sector {
 static struct sector sector_of(const struct step_context *context, uint32_t i)
 {
     const struct entities *w = &context->committed->entities;
-    double wide = context->world->kinds[w->kind[i]].view_rad;
+    double wide = context->world->kinds[w->row[i].kind].view_rad;
     struct sector view = {.around = wide >= TWO_PI - 1e-9};
     if (!view.around) {
-        maths_sincos(w->heading[i] + (double)w->turret[i], &view.sine, &view.cosine);
+        maths_sincos(w->row[i].heading + (double)w->row[i].turret, &view.sine, &view.cosine);
         view.edge = maths_cos(0.5 * wide);
     }
     return view;
@@ -66,7 +66,7 @@ bool target_search_sees(const struct step_context *context, uint32_t i, uint32_t
     const struct entities *w = &context->committed->entities;
     struct vec3 off = vec3_sub(step_context_position(context, w, other), entities_position(w, i));
     double dx = off.x, dz = off.z;
-    double sight = context->world->kinds[w->kind[i]].sight_m;
+    double sight = context->world->kinds[w->row[i].kind].sight_m;
     if (!(dx * dx + dz * dz < sight * sight))
         return false;
     struct sector view = sector_of(context, i);
@@ -104,15 +104,15 @@ static void consider(struct candidates *c, uint32_t row, double square)
 static double preference(const struct step_context *context, uint32_t i, uint32_t other)
 {
     const struct entities *w = &context->committed->entities;
-    return 1.0 + PREFERENCE * random_unit(context->world->params->seed, w->id[other], w->id[i],
-                                          RANDOM_SEARCH);
+    return 1.0 + PREFERENCE * random_unit(context->world->params->seed, w->row[other].id,
+                                          w->row[i].id, RANDOM_SEARCH);
 }
 
 /* Returns true if a look considers enemies that it cannot harm. A crew that is at ease minds them,
  * and takes cover; one with the order never to flee looks past them. */
 static bool minds_all(const struct step_context *context, uint32_t i, enum target_search how)
 {
-    return how == TARGET_SEARCH_CALM && !(context->m->flags[i] & ENTITY_FLAG_STAND);
+    return how == TARGET_SEARCH_CALM && !(context->m->row[i].flags & ENTITY_FLAG_STAND);
 }
 
 static void gather(const struct step_context *context, uint32_t i, const struct sector *view,
@@ -120,9 +120,9 @@ static void gather(const struct step_context *context, uint32_t i, const struct 
 {
     const struct entities *w = &context->committed->entities;
     const struct neighbour_index_entry *entry;
-    struct neighbour_query query =
-        neighbour_query_begin(context->neighbours, neighbour_index_enemies((enum force)w->force[i]),
-                              w->x[i], w->z[i], radius);
+    struct neighbour_query query = neighbour_query_begin(
+        context->neighbours, neighbour_index_enemies((enum force)w->row[i].force), w->row[i].x,
+        w->row[i].z, radius);
     bool all = minds_all(context, i, how);
     c->count = 0;
     while ((entry = neighbour_query_next(&query))) {
@@ -143,7 +143,7 @@ static void gather(const struct step_context *context, uint32_t i, const struct 
  * ahead of it, and does so again if the stretch is refused: it is one look all the same. */
 static uint64_t look_tick(const struct step_context *context, uint32_t i)
 {
-    uint32_t past = ((uint32_t)context->tick + context->m->id[i]) % context->look_frames;
+    uint32_t past = ((uint32_t)context->tick + context->m->row[i].id) % context->look_frames;
     return past == 0 ? context->tick : context->tick + context->look_frames - past;
 }
 
@@ -157,7 +157,7 @@ static bool finds(const struct step_context *context, uint32_t i, uint32_t other
     double share = sqrt(dx * dx + dz * dz) / maths_max(sight, 1.0);
     double mean_s = maths_clamp(SEARCH_MOST_S * share, SEARCH_LEAST_S, SEARCH_MOST_S);
     double look_s = (double)context->look_frames * context->dt_s;
-    uint64_t pair = (uint64_t)w->id[i] << 32 | w->id[other];
+    uint64_t pair = (uint64_t)w->row[i].id << 32 | w->row[other].id;
     return random_unit(context->world->params->seed, look_tick(context, i), pair, RANDOM_SEARCH) *
                (look_s + mean_s) <
            look_s;
@@ -174,8 +174,8 @@ static uint32_t in_turn(const struct step_context *context, const struct candida
 
 uint32_t target_search(const struct step_context *context, uint32_t i, enum target_search how)
 {
-    double sight = context->world->kinds[context->m->kind[i]].sight_m;
-    enum force force = (enum force)context->committed->entities.force[i];
+    double sight = context->world->kinds[context->m->row[i].kind].sight_m;
+    enum force force = (enum force)context->committed->entities.row[i].force;
     struct candidates c = {0};
     uint32_t lines = 0;
     if (!(neighbour_index_enemies(force) & context->neighbours->present))

@@ -13,9 +13,6 @@
 
 #include <string.h>
 
-/* Columns that perception_event() reads: when they are zero, there is no event. */
-#define EVENT_COLUMNS (COLUMN_BIT(threat_id) | COLUMN_BIT(bumped) | COLUMN_BIT(damage))
-
 struct think_schedule {
     uint32_t count;
     uint32_t row[CHECKSUM_ROWS];
@@ -27,9 +24,10 @@ struct think_schedule {
 static bool follows_script(const struct step_context *context, uint32_t i)
 {
     const struct entities *m = context->m;
-    return m->order[i] == BEHAVIOUR_FOLLOW && m->order_arg[i] < context->world->counts.formations &&
+    return m->row[i].order == BEHAVIOUR_FOLLOW &&
+           m->row[i].order_arg < context->world->counts.formations &&
            agent_thinks_each_frame(
-               (enum behaviour)context->world->formations[m->order_arg[i]].order);
+               (enum behaviour)context->world->formations[m->row[i].order_arg].order);
 }
 
 /* Behaviours, and orders, of agents that decide in their turns, whatever else the row is. */
@@ -43,21 +41,21 @@ static bool follows_script(const struct step_context *context, uint32_t i)
 static enum motion motion_of(const struct step_context *context, uint32_t i)
 {
     const struct entities *m = context->m;
-    if (m->state[i] == ENTITY_ACTIVE && IN_TURNS >> m->behaviour[i] & 1u &&
-        IN_TURNS >> m->order[i] & 1u)
+    if (m->row[i].state == ENTITY_ACTIVE && IN_TURNS >> m->row[i].behaviour & 1u &&
+        IN_TURNS >> m->row[i].order & 1u)
         return MOTION_AGENT; /* as most rows */
-    if (m->state[i] == ENTITY_FREE)
+    if (m->row[i].state == ENTITY_FREE)
         return MOTION_NONE;
     if (remote_is(m, i))
         return MOTION_REMOTE;
-    if (m->state[i] == ENTITY_WRECK)
+    if (m->row[i].state == ENTITY_WRECK)
         return MOTION_WRECK;
-    if (m->behaviour[i] == BEHAVIOUR_FLIGHT)
+    if (m->row[i].behaviour == BEHAVIOUR_FLIGHT)
         return MOTION_FLIGHT;
-    if (m->behaviour[i] == BEHAVIOUR_HOLD)
+    if (m->row[i].behaviour == BEHAVIOUR_HOLD)
         return MOTION_HOLD;
-    return agent_thinks_each_frame((enum behaviour)m->behaviour[i]) ||
-                   agent_thinks_each_frame((enum behaviour)m->order[i]) ||
+    return agent_thinks_each_frame((enum behaviour)m->row[i].behaviour) ||
+                   agent_thinks_each_frame((enum behaviour)m->row[i].order) ||
                    follows_script(context, i)
                ? MOTION_ALONE
                : MOTION_AGENT;
@@ -67,45 +65,72 @@ static enum motion motion_of(const struct step_context *context, uint32_t i)
 static bool is_new(const struct step_context *context, uint32_t i)
 {
     const struct entities *w = &context->committed->entities;
-    return w->state[i] == ENTITY_FREE || context->m->id[i] != w->id[i];
+    return w->row[i].state == ENTITY_FREE || context->m->row[i].id != w->row[i].id;
 }
 
 /* Returns true if its spin turns the row before it moves. Land vehicles that spin are bodies on
  * their springs (mover/motion/chassis.h), and aircraft that have landed are bodies too. */
 static bool spins_first(const struct step_context *context, enum motion how, uint32_t i)
 {
-    enum domain domain = (enum domain)context->world->kinds[context->m->kind[i]].domain;
-    bool body = domain != DOMAIN_SEA && (context->m->flags[i] & ENTITY_FLAG_CHASSIS) != 0;
+    enum domain domain = (enum domain)context->world->kinds[context->m->row[i].kind].domain;
+    bool body = domain != DOMAIN_SEA && (context->m->row[i].flags & ENTITY_FLAG_CHASSIS) != 0;
     return (how == MOTION_HOLD && !body) ||
            (how > MOTION_HOLD && how != MOTION_REMOTE && domain != DOMAIN_LAND && !body);
+}
+
+static bool spins(const struct entities *m, uint32_t i)
+{
+    return m->row[i].spin_x != 0.0 || m->row[i].spin_y != 0.0 || m->row[i].spin_z != 0.0;
+}
+
+/* Returns false if perception_event() finds none. */
+static bool has_event(const struct entities *m, uint32_t i)
+{
+    return m->row[i].threat_id != 0 || m->row[i].bumped != 0 || m->row[i].damage != DAMAGE_NONE;
+}
+
+#define ROWS_AHEAD 8 /* from the prefetch of a row to its use */
+
+/* Asks for the next row from `row` on that is moved. Returns that after it. */
+static uint32_t prefetch_next(const struct step_context *context, const struct row_block *block,
+                              uint32_t row)
+{
+    row = row_block_next(block, row);
+    if (row >= block->end)
+        return row;
+    entity_prefetch(&context->m->row[row]);
+    entity_prefetch(&context->committed->entities.row[row]);
+    return row + 1;
 }
 
 static void sort(const struct step_context *context, const struct row_block *block, uint8_t *motion,
                  struct think_schedule *thinkers)
 {
     const struct entities *m = context->m;
-    const bool news = (block->changed & COLUMN_BIT(id)) != 0;
-    const bool spins = !row_block_lacks(block, SPIN_COLUMNS);
     const bool begins = context->cruise_frames > 1;
-    const bool events = !row_block_lacks(block, EVENT_COLUMNS);
+    uint32_t ahead = block->first;
     thinkers->count = 0;
+    for (int n = 0; n < ROWS_AHEAD; n++)
+        ahead = prefetch_next(context, block, ahead);
     if (!block->all)
         memset(motion, MOTION_NONE, block->end - block->first);
     for (uint32_t i = row_block_next(block, block->first); i < block->end;
          i = row_block_next(block, i + 1)) {
-        enum motion how = news && is_new(context, i) ? MOTION_NONE : motion_of(context, i);
-        if (spins && spins_first(context, how, i))
+        ahead = prefetch_next(context, block, ahead);
+        enum motion how = is_new(context, i) ? MOTION_NONE : motion_of(context, i);
+        m->row[i].trigger = 0;
+        if (spins(m, i) && spins_first(context, how, i))
             spin_row(context, i);
         if (how == MOTION_HOLD) { /* it reacts to nothing */
-            m->bumped[i] = 0;
-            m->threat_slot[i] = m->threat_id[i] = 0;
+            m->row[i].bumped = 0;
+            m->row[i].threat_slot = m->row[i].threat_id = 0;
         }
         if (cruise_goes(m, i, context->tick - 1))
             how = MOTION_CRUISE;
         if (how == MOTION_AGENT) {
             if (step_context_thinks(context, i) ||
                 (begins && cruise_start_due(context, i, context->think_frames)) ||
-                (events && perception_event(context, i)))
+                (has_event(m, i) && perception_event(context, i)))
                 thinkers->row[thinkers->count++] = i;
             else
                 how = MOTION_COURSE;
@@ -132,10 +157,11 @@ static void aim(const struct step_context *context, const struct row_block *bloc
     for (uint32_t i = row_block_next(block, block->first); i < block->end;
          i = row_block_next(block, i + 1)) {
         enum motion how = (enum motion)motion[i - block->first];
-        if ((how == MOTION_COURSE || how == MOTION_AGENT) && m->behaviour[i] == BEHAVIOUR_ATTACK &&
-            neighbour_index_divides(divisor, (uint32_t)context->tick + m->id[i]) &&
+        if ((how == MOTION_COURSE || how == MOTION_AGENT) &&
+            m->row[i].behaviour == BEHAVIOUR_ATTACK &&
+            neighbour_index_divides(divisor, (uint32_t)context->tick + m->row[i].id) &&
             attack_ready(context, i))
-            m->trigger[i] |= TRIGGER_FIRE;
+            m->row[i].trigger |= TRIGGER_FIRE;
     }
 }
 
@@ -143,8 +169,6 @@ void think_schedule_run(const struct step_context *context, const struct row_blo
                         uint8_t motion[CHECKSUM_ROWS])
 {
     struct think_schedule thinkers;
-    if (!row_block_lacks(block, COLUMN_BIT(trigger)))
-        memset(context->m->trigger + block->first, 0, block->end - block->first);
     sort(context, block, motion, &thinkers);
     think(context, &thinkers);
     aim(context, block, motion);

@@ -22,9 +22,7 @@ enum motion {
 
 /* A block of rows before it moves. */
 struct row_block {
-    uint32_t first, end; /* rows; at most CHECKSUM_ROWS */
-    uint64_t changed;    /* columns that commands of this frame changed */
-    uint64_t blank;      /* other columns, which are zero in every row and need not be read */
+    uint32_t first, end;             /* rows; at most CHECKSUM_ROWS */
     uint64_t awake[ROW_BLOCK_WORDS]; /* a bit for each row that is moved in this frame */
     bool all;                        /* all are */
 };
@@ -39,17 +37,6 @@ static inline uint32_t row_block_next(const struct row_block *block, uint32_t ro
     while (word == 0 && ++n < ROW_BLOCK_WORDS)
         word = block->awake[n];
     return word == 0 ? block->end : block->first + n * 64 + (uint32_t)__builtin_ctzll(word);
-}
-
-/* Columns that are zero unless a row spins, and unless a gun moves or has a target. */
-#define SPIN_COLUMNS (COLUMN_BIT(spin_x) | COLUMN_BIT(spin_y) | COLUMN_BIT(spin_z))
-#define GUN_COLUMNS                                                                                \
-    (COLUMN_BIT(turret) | COLUMN_BIT(gun) | COLUMN_BIT(traverse) | COLUMN_BIT(elevate) |           \
-     COLUMN_BIT(target_id))
-
-static inline bool row_block_lacks(const struct row_block *block, uint64_t columns)
-{
-    return (block->blank & columns) == columns;
 }
 
 /* Sets motion[] of the block's rows (MOTION_NONE: it is not moved), turns the rows that spin, and

@@ -39,16 +39,16 @@ static uint32_t since_turn(const struct step_context *context, uint32_t i)
 /* Returns how many frames ago something was due that row i's agent does every `period` frames. */
 static uint32_t since_due(const struct step_context *context, uint32_t i, uint32_t period)
 {
-    return ((uint32_t)context->tick + context->m->id[i]) % period;
+    return ((uint32_t)context->tick + context->m->row[i].id) % period;
 }
 
 /* Returns true if the row is on its way by its order. */
 static bool is_under_way(const struct entities *m, uint32_t i)
 {
-    return m->state[i] == ENTITY_ACTIVE &&
-           (m->behaviour[i] == BEHAVIOUR_PATROL || m->behaviour[i] == BEHAVIOUR_ROUTE ||
-            m->behaviour[i] == BEHAVIOUR_WITHDRAW || m->behaviour[i] == BEHAVIOUR_BACK_OFF ||
-            m->behaviour[i] == BEHAVIOUR_FLEE);
+    return m->row[i].state == ENTITY_ACTIVE &&
+           (m->row[i].behaviour == BEHAVIOUR_PATROL || m->row[i].behaviour == BEHAVIOUR_ROUTE ||
+            m->row[i].behaviour == BEHAVIOUR_WITHDRAW ||
+            m->row[i].behaviour == BEHAVIOUR_BACK_OFF || m->row[i].behaviour == BEHAVIOUR_FLEE);
 }
 
 bool cruise_start_crowd(const struct step_context *context)
@@ -61,17 +61,19 @@ bool cruise_start_crowd(const struct step_context *context)
 static bool holds_its_way(const struct step_context *context, uint32_t i)
 {
     const struct entities *m = context->m;
-    return (m->dodge[i] == 0.0f && m->ease[i] == 0.0f) || cruise_start_crowd(context);
+    return (m->row[i].dodge == 0.0f && m->row[i].ease == 0.0f) || cruise_start_crowd(context);
 }
 
 /* Returns true if nothing has happened to the row, and it aims at nothing. */
 static bool is_undisturbed(const struct step_context *context, uint32_t i)
 {
     const struct entities *m = context->m;
-    bool aims = m->target_id[i] != 0 && context->world->kinds[m->kind[i]].munition != KIND_NONE;
-    return !aims && m->threat_id[i] == 0 && m->bumped[i] == 0 && m->trigger[i] == 0 &&
-           !(m->flags[i] & (ENTITY_FLAG_BURST | ENTITY_FLAG_CHASSIS)) && m->turret[i] == 0.0f &&
-           m->gun[i] == 0.0f && m->spin_x[i] == 0.0 && m->spin_y[i] == 0.0 && m->spin_z[i] == 0.0;
+    bool aims =
+        m->row[i].target_id != 0 && context->world->kinds[m->row[i].kind].munition != KIND_NONE;
+    return !aims && m->row[i].threat_id == 0 && m->row[i].bumped == 0 && m->row[i].trigger == 0 &&
+           !(m->row[i].flags & (ENTITY_FLAG_BURST | ENTITY_FLAG_CHASSIS)) &&
+           m->row[i].turret == 0.0f && m->row[i].gun == 0.0f && m->row[i].spin_x == 0.0 &&
+           m->row[i].spin_y == 0.0 && m->row[i].spin_z == 0.0;
 }
 
 /* Returns true if row i's vehicle is where it can cruise: not one that is aground or has landed,
@@ -80,18 +82,18 @@ static bool is_undisturbed(const struct step_context *context, uint32_t i)
 static bool cruises(const struct step_context *context, uint32_t i)
 {
     const struct entities *m = context->m;
-    enum domain domain = (enum domain)context->world->kinds[m->kind[i]].domain;
+    enum domain domain = (enum domain)context->world->kinds[m->row[i].kind].domain;
     if (domain == DOMAIN_AIR)
-        return !(m->flags[i] & ENTITY_FLAG_LANDED) &&
-               (m->climb[i] == 0.0f || cruise_start_crowd(context));
-    return domain == DOMAIN_LAND || !(m->flags[i] & ENTITY_FLAG_AGROUND);
+        return !(m->row[i].flags & ENTITY_FLAG_LANDED) &&
+               (m->row[i].climb == 0.0f || cruise_start_crowd(context));
+    return domain == DOMAIN_LAND || !(m->row[i].flags & ENTITY_FLAG_AGROUND);
 }
 
 /* Returns true if row i's stretch has ended by itself just now. */
 static bool has_ended(const struct step_context *context, uint32_t i)
 {
-    return context->m->cruise_tick[i] != 0 &&
-           context->m->cruise_tick[i] + 1u == (uint32_t)context->tick;
+    return context->m->row[i].cruise_tick != 0 &&
+           context->m->row[i].cruise_tick + 1u == (uint32_t)context->tick;
 }
 
 /* Returns the frames from this one to the group's next turn if row i may try to cruise now; else
@@ -121,7 +123,7 @@ static uint32_t tries_for(const struct step_context *context, uint32_t i)
  * are moved in each frame: they climb and turn while they do. */
 static uint32_t decides_for(const struct step_context *context, uint32_t i)
 {
-    bool flies = context->world->kinds[context->m->kind[i]].domain == DOMAIN_AIR;
+    bool flies = context->world->kinds[context->m->row[i].kind].domain == DOMAIN_AIR;
     return !flies && context->think_frames >= CRUISE_START_LEAST && step_context_thinks(context, i)
                ? context->think_frames
                : 0;
@@ -132,8 +134,8 @@ static uint32_t decides_for(const struct step_context *context, uint32_t i)
 static bool travels_far(const struct step_context *context, uint32_t i, uint32_t frames)
 {
     const struct entities *m = context->m;
-    const struct kind *kind = &context->world->kinds[m->kind[i]];
-    double dx = m->goal_x[i] - m->x[i], dz = m->goal_z[i] - m->z[i];
+    const struct kind *kind = &context->world->kinds[m->row[i].kind];
+    double dx = m->row[i].goal_x - m->row[i].x, dz = m->row[i].goal_z - m->row[i].z;
     double way_m = kind->max_speed_mps * context->dt_s * (double)frames + NEAR_GOAL_M;
     return (kind->domain == DOMAIN_LAND ||
             (kind->domain == DOMAIN_AIR && cruise_start_crowd(context))) &&

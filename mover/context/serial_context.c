@@ -26,7 +26,7 @@ struct event_party serial_context_party(const struct serial_context *context, ui
 {
     const struct entities *m = &context->moved->entities;
     return (struct event_party){
-        .id = m->id[row], .kind = m->kind[row], .fixed = 0, .damage = m->damage[row]};
+        .id = m->row[row].id, .kind = m->row[row].kind, .fixed = 0, .damage = m->row[row].damage};
 }
 
 void serial_context_stop(struct serial_context *context, uint32_t row, uint64_t tick)

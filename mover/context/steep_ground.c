@@ -23,8 +23,8 @@ double steep_ground_on_way(const struct step_context *context, uint32_t i, doubl
     double most = 0.0;
     for (int n = 1; n <= PLACES; n++) {
         double share = (double)n / PLACES;
-        most = maths_max(
-            most, steep_ground_at(context, i, m->x[i] + share * east_m, m->z[i] + share * south_m));
+        most = maths_max(most, steep_ground_at(context, i, m->row[i].x + share * east_m,
+                                               m->row[i].z + share * south_m));
     }
     return most;
 }
@@ -33,9 +33,9 @@ bool steep_ground_is_easy(const struct step_context *context, uint32_t i, double
                           double most)
 {
     const struct entities *m = context->m;
-    struct gridsquare_box box =
-        gridsquare_box_of(&context->world->terrain.squares, maths_min(m->x[i], x),
-                          maths_min(m->z[i], z), maths_max(m->x[i], x), maths_max(m->z[i], z));
+    struct gridsquare_box box = gridsquare_box_of(
+        &context->world->terrain.squares, maths_min(m->row[i].x, x), maths_min(m->row[i].z, z),
+        maths_max(m->row[i].x, x), maths_max(m->row[i].z, z));
     return square_bounds_within(context->slopes, box, square_bounds_below_slope(most)) &&
            !ground_marks_within(context->ground_marks, box, GROUND_MARKS_CRATER);
 }

@@ -54,7 +54,7 @@ struct step_context {
 static inline bool step_context_thinks(const struct step_context *context, uint32_t i)
 {
     return neighbour_index_divides(context->neighbours->think_divisor,
-                                   (uint32_t)context->tick + context->m->id[i]);
+                                   (uint32_t)context->tick + context->m->row[i].id);
 }
 
 /* Returns the tick of a table: of the committed one, or of the moved one. */
@@ -101,7 +101,7 @@ struct desired_motion {
 
 #define BRAKES 2.0 /* the hardest braking, in multiples of the kind's acceleration */
 
-/* The trigger column: a row's requests to the serial part of the step. */
+/* The trigger field: a row's requests to the serial part of the step. */
 #define TRIGGER_FIRE         1u
 #define TRIGGER_FIRE_AT      2u        /* at its goal, a point on the ground */
 #define TRIGGER_REASON_SHIFT 2u        /* above: enum agent_reason + 1 of a change of behaviour */

@@ -49,7 +49,8 @@ bool aircraft_turns_back(const struct step_context *context, uint32_t i)
 {
     const struct entities *m = context->m;
     const double side_m = context->world->terrain.squares.world_m;
-    double x = m->x[i] + m->vx[i] * EDGE_TURN_S, z = m->z[i] + m->vz[i] * EDGE_TURN_S;
+    double x = m->row[i].x + m->row[i].vx * EDGE_TURN_S,
+           z = m->row[i].z + m->row[i].vz * EDGE_TURN_S;
     const double first = EDGE_LEAST_M, last = side_m - EDGE_LEAST_M;
     return x < first || z < first || x > last || z > last;
 }
@@ -58,8 +59,8 @@ bool aircraft_turns_back(const struct step_context *context, uint32_t i)
 static void turn_back(const struct entities *m, struct aircraft *batch, int l, double side_m)
 {
     uint32_t i = batch->row[l];
-    double heading = maths_heading(0.5 * side_m - m->x[i], 0.5 * side_m - m->z[i]);
-    double off = maths_wrap_half(heading - m->heading[i]);
+    double heading = maths_heading(0.5 * side_m - m->row[i].x, 0.5 * side_m - m->row[i].z);
+    double off = maths_wrap_half(heading - m->row[i].heading);
     batch->held.lane[l] = 0;
     batch->wanted_heading.lane[l] = heading;
     batch->wanted_mps.lane[l] = fabs(batch->wanted_mps.lane[l]); /* helicopters fly backwards */
@@ -80,7 +81,7 @@ static void take_desired(const struct step_context *context, struct aircraft *ba
     batch->turn.lane[l] = desired->turn;
     batch->climb.lane[l] = desired->climb_mps;
     batch->brake.lane[l] = desired->brake;
-    batch->spool.lane[l] = desired->driven ? 1.0 - (double)m->dodge[i] : 1.0;
+    batch->spool.lane[l] = desired->driven ? 1.0 - (double)m->row[i].dodge : 1.0;
     batch->power.lane[l] = desired->driven ? desired->power : 1.0;
     if (aircraft_turns_back(context, i))
         turn_back(m, batch, l, side_m);
@@ -95,17 +96,17 @@ bool aircraft_take(const struct step_context *context, struct aircraft *batch, u
     batch->here.patch[l] = &context->terrain_entries[i];
     batch->ahead.patch[l] = &context->terrain_entries_ahead[i];
     __builtin_prefetch(batch->ahead.patch[l]);
-    batch->x.lane[l] = m->x[i];
-    batch->y.lane[l] = m->y[i];
-    batch->z.lane[l] = m->z[i];
-    batch->vx.lane[l] = m->vx[i];
-    batch->vy.lane[l] = m->vy[i];
-    batch->vz.lane[l] = m->vz[i];
-    batch->heading.lane[l] = m->heading[i];
-    batch->pitch.lane[l] = m->pitch[i];
-    batch->roll.lane[l] = m->roll[i];
-    batch->fuel.lane[l] = m->fuel_l[i];
-    take_kind(batch, l, &context->world->kinds[m->kind[i]]);
+    batch->x.lane[l] = m->row[i].x;
+    batch->y.lane[l] = m->row[i].y;
+    batch->z.lane[l] = m->row[i].z;
+    batch->vx.lane[l] = m->row[i].vx;
+    batch->vy.lane[l] = m->row[i].vy;
+    batch->vz.lane[l] = m->row[i].vz;
+    batch->heading.lane[l] = m->row[i].heading;
+    batch->pitch.lane[l] = m->row[i].pitch;
+    batch->roll.lane[l] = m->row[i].roll;
+    batch->fuel.lane[l] = m->row[i].fuel_l;
+    take_kind(batch, l, &context->world->kinds[m->row[i].kind]);
     batch->parked.lane[l] = -(int64_t)kinematics_parked(m, i);
     if (batch->parked.lane[l]) /* it hovers, and burns the fuel of many frames at once */
         batch->burn_lps.lane[l] *=
@@ -117,9 +118,9 @@ bool aircraft_take(const struct step_context *context, struct aircraft *batch, u
 double aircraft_ground(const struct step_context *context, uint32_t i)
 {
     const struct entities *m = context->m;
-    double here = kinematics_ground(context, m->x[i], m->z[i]);
-    return maths_max(here, kinematics_ground(context, m->x[i] + LOOK_AHEAD_S * m->vx[i],
-                                             m->z[i] + LOOK_AHEAD_S * m->vz[i]));
+    double here = kinematics_ground(context, m->row[i].x, m->row[i].z);
+    return maths_max(here, kinematics_ground(context, m->row[i].x + LOOK_AHEAD_S * m->row[i].vx,
+                                             m->row[i].z + LOOK_AHEAD_S * m->row[i].vz));
 }
 
 /* aircraft_ground() of a batch. */
@@ -276,16 +277,17 @@ static inline void lean(struct aircraft *batch, const struct lean *lean, double 
  * another energy. */
 static void carry_spin(struct entities *m, uint32_t i, const struct aircraft *batch, int l)
 {
-    const struct vec3 spin = {m->spin_x[i], m->spin_y[i], m->spin_z[i]};
+    const struct vec3 spin = {m->row[i].spin_x, m->row[i].spin_y, m->row[i].spin_z};
     if (vec3_dot(spin, spin) == 0.0)
         return;
-    struct mat3 before = rotation_matrix(rotation_of(m->heading[i], m->pitch[i], m->roll[i]));
+    struct mat3 before =
+        rotation_matrix(rotation_of(m->row[i].heading, m->row[i].pitch, m->row[i].roll));
     struct mat3 after = rotation_matrix(
         rotation_of(batch->heading.lane[l], batch->pitch.lane[l], batch->roll.lane[l]));
     struct vec3 turned = rotation_apply(&after, rotation_back(&before, spin));
-    m->spin_x[i] = turned.x;
-    m->spin_y[i] = turned.y;
-    m->spin_z[i] = turned.z;
+    m->row[i].spin_x = turned.x;
+    m->row[i].spin_y = turned.y;
+    m->row[i].spin_z = turned.z;
 }
 
 /* Notes in the row of lane l, which is as it was, how it flies a stretch. */
@@ -297,9 +299,9 @@ static void begin_stretch(const struct step_context *context, const struct aircr
         .frames = batch->frames,
         .turned_rad = batch->turned.lane[l],
         .gain_mps2 = batch->gain_mps2.lane[l],
-        .climbed_mps = batch->vy.lane[l] - m->vy[i],
-        .pitched_rad = batch->pitch.lane[l] - m->pitch[i],
-        .rolled_rad = batch->roll.lane[l] - m->roll[i],
+        .climbed_mps = batch->vy.lane[l] - m->row[i].vy,
+        .pitched_rad = batch->pitch.lane[l] - m->row[i].pitch,
+        .rolled_rad = batch->roll.lane[l] - m->row[i].roll,
     };
     kinematics_cruise(context, i, &changes);
 }
@@ -314,20 +316,20 @@ static void write_rows(const struct step_context *context, const struct aircraft
         if (batch->frames > 1)
             begin_stretch(context, batch, l);
         else
-            m->cruise_tick[i] = 0;
+            m->row[i].cruise_tick = 0;
         carry_spin(m, i, batch, l);
-        m->x[i] = batch->x.lane[l];
-        m->y[i] = batch->y.lane[l];
-        m->z[i] = batch->z.lane[l];
-        m->vx[i] = batch->vx.lane[l];
-        m->vy[i] = batch->vy.lane[l];
-        m->vz[i] = batch->vz.lane[l];
-        m->heading[i] = batch->heading.lane[l];
-        m->pitch[i] = batch->pitch.lane[l];
-        m->roll[i] = batch->roll.lane[l];
-        m->fuel_l[i] = batch->fuel.lane[l];
+        m->row[i].x = batch->x.lane[l];
+        m->row[i].y = batch->y.lane[l];
+        m->row[i].z = batch->z.lane[l];
+        m->row[i].vx = batch->vx.lane[l];
+        m->row[i].vy = batch->vy.lane[l];
+        m->row[i].vz = batch->vz.lane[l];
+        m->row[i].heading = batch->heading.lane[l];
+        m->row[i].pitch = batch->pitch.lane[l];
+        m->row[i].roll = batch->roll.lane[l];
+        m->row[i].fuel_l = batch->fuel.lane[l];
         if (batch->driven.lane[l])
-            m->dodge[i] = (float)(1.0 - batch->spool.lane[l]);
+            m->row[i].dodge = (float)(1.0 - batch->spool.lane[l]);
     }
 }
 
@@ -444,14 +446,14 @@ static void find_arc_end(struct aircraft *batch, const struct entities *m, int l
                          double forward_mps, double dt_s)
 {
     uint32_t i = batch->row[l];
-    double turned = maths_wrap_half(batch->heading.lane[l] - m->heading[i]), sine, cosine;
-    maths_sincos(m->heading[i], &sine, &cosine);
-    double before_mps = m->vx[i] * sine - m->vz[i] * cosine;
+    double turned = maths_wrap_half(batch->heading.lane[l] - m->row[i].heading), sine, cosine;
+    maths_sincos(m->row[i].heading, &sine, &cosine);
+    double before_mps = m->row[i].vx * sine - m->row[i].vz * cosine;
     const struct vec3 from = entities_position(m, i);
     const struct vec3 to =
-        cruise_end(from, m->heading[i], turned, 0.5 * (before_mps + forward_mps) * dt_s);
+        cruise_end(from, m->row[i].heading, turned, 0.5 * (before_mps + forward_mps) * dt_s);
     batch->x.lane[l] = to.x;
-    batch->y.lane[l] = from.y + 0.5 * (m->vy[i] + batch->vy.lane[l]) * dt_s;
+    batch->y.lane[l] = from.y + 0.5 * (m->row[i].vy + batch->vy.lane[l]) * dt_s;
     batch->z.lane[l] = to.z;
     batch->turned.lane[l] = turned;
     batch->gain_mps2.lane[l] = (forward_mps - before_mps) / dt_s;
@@ -463,9 +465,9 @@ static bool flies_evenly(const struct aircraft *batch, const struct entities *m,
     uint32_t i = batch->row[l];
     return fabs(batch->turned.lane[l]) <= STRETCH_TURN_RAD &&
            fabs(batch->gain_mps2.lane[l]) * dt_s <= STRETCH_GAIN_MPS &&
-           fabs(batch->vy.lane[l] - m->vy[i]) <= STRETCH_CLIMB_MPS &&
-           fabs(batch->roll.lane[l] - m->roll[i]) <= STRETCH_LEAN_RAD &&
-           fabs(batch->pitch.lane[l] - m->pitch[i]) <= STRETCH_LEAN_RAD;
+           fabs(batch->vy.lane[l] - m->row[i].vy) <= STRETCH_CLIMB_MPS &&
+           fabs(batch->roll.lane[l] - m->row[i].roll) <= STRETCH_LEAN_RAD &&
+           fabs(batch->pitch.lane[l] - m->row[i].pitch) <= STRETCH_LEAN_RAD;
 }
 
 /* Returns true if nothing of lane l can touch the ground, nor a new crater there. It is over all
@@ -476,15 +478,16 @@ static bool stays_over_ground(const struct step_context *context, const struct a
 {
     const struct entities *m = context->m;
     uint32_t i = batch->row[l];
-    const struct kind *kind = &context->world->kinds[m->kind[i]];
-    double x = m->x[i], z = m->z[i], to_x = batch->x.lane[l], to_z = batch->z.lane[l];
+    const struct kind *kind = &context->world->kinds[m->row[i].kind];
+    double x = m->row[i].x, z = m->row[i].z, to_x = batch->x.lane[l], to_z = batch->z.lane[l];
     struct gridsquare_box box =
         gridsquare_box_of(&context->world->terrain.squares, maths_min(x, to_x), maths_min(z, to_z),
                           maths_max(x, to_x), maths_max(z, to_z));
     double way_m = sqrt((to_x - x) * (to_x - x) + (to_z - z) * (to_z - z));
     double ground_m = maths_max(batch->ground.lane[l], kinematics_ground(context, to_x, to_z));
-    double sag_m = fabs(batch->vy.lane[l] - m->vy[i]) * context->dt_s * batch->frames / 8.0;
-    double low_m = maths_min(m->y[i], batch->y.lane[l]) - sag_m - kind->bound_m - STRETCH_OVER_M;
+    double sag_m = fabs(batch->vy.lane[l] - m->row[i].vy) * context->dt_s * batch->frames / 8.0;
+    double low_m =
+        maths_min(m->row[i].y, batch->y.lane[l]) - sag_m - kind->bound_m - STRETCH_OVER_M;
     if (square_bounds_within(&context->line_of_sight->skyline, box,
                              square_bounds_below_height(low_m)))
         return true;

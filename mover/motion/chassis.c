@@ -37,8 +37,8 @@
 
 void chassis_disturb(const struct step_context *context, uint32_t i)
 {
-    context->m->flags[i] |= ENTITY_FLAG_CHASSIS;
-    context->m->jolt_tick[i] = (uint32_t)context->tick;
+    context->m->row[i].flags |= ENTITY_FLAG_CHASSIS;
+    context->m->row[i].jolt_tick = (uint32_t)context->tick;
 }
 
 bool chassis_holds(const struct kind *kind, double friction, const struct chassis_slope *slope)
@@ -62,10 +62,10 @@ static double slope_between(const struct step_context *context, uint32_t i, doub
 {
     const struct entities *m = context->m;
     double sine, cosine;
-    maths_sincos(m->heading[i], &sine, &cosine);
+    maths_sincos(m->row[i].heading, &sine, &cosine);
     double dx = front_m * sine + right_m * cosine, dz = right_m * sine - front_m * cosine;
-    return maths_atan2(kinematics_ground(context, m->x[i] + dx, m->z[i] + dz) -
-                           kinematics_ground(context, m->x[i] - dx, m->z[i] - dz),
+    return maths_atan2(kinematics_ground(context, m->row[i].x + dx, m->row[i].z + dz) -
+                           kinematics_ground(context, m->row[i].x - dx, m->row[i].z - dz),
                        2.0 * (front_m + right_m));
 }
 
@@ -73,11 +73,11 @@ static double slope_between(const struct step_context *context, uint32_t i, doub
 static void take_slope(const struct step_context *context, uint32_t i)
 {
     struct entities *m = context->m;
-    const struct kind *kind = &context->world->kinds[m->kind[i]];
-    if (fabs(m->y[i] - kinematics_ground(context, m->x[i], m->z[i])) > PLACED_M)
+    const struct kind *kind = &context->world->kinds[m->row[i].kind];
+    if (fabs(m->row[i].y - kinematics_ground(context, m->row[i].x, m->row[i].z)) > PLACED_M)
         return;
-    m->pitch[i] = slope_between(context, i, 0.5 * kind->length_m, 0.0);
-    m->roll[i] = -slope_between(context, i, 0.0, 0.5 * kind->width_m);
+    m->row[i].pitch = slope_between(context, i, 0.5 * kind->length_m, 0.0);
+    m->row[i].roll = -slope_between(context, i, 0.0, 0.5 * kind->width_m);
 }
 
 /* Returns how long the row has been calm, in whole tenths of a second: a jolt counts for all of its
@@ -85,7 +85,7 @@ static void take_slope(const struct step_context *context, uint32_t i)
 static double calm_s(const struct step_context *context, uint32_t i)
 {
     const uint32_t frames = (uint32_t)maths_max(1.0, floor(JOLT_S / context->dt_s + 0.5));
-    uint32_t since = (uint32_t)context->tick - context->m->jolt_tick[i];
+    uint32_t since = (uint32_t)context->tick - context->m->row[i].jolt_tick;
     uint32_t into = (uint32_t)((context->tick - 1) % frames); /* of the present tenth */
     uint32_t tenths = since > into ? (since - into + frames - 1) / frames : 0;
     return ((double)(tenths * frames) + 0.5) * context->dt_s; /* no rounding decides */
@@ -94,15 +94,15 @@ static double calm_s(const struct step_context *context, uint32_t i)
 bool chassis_takes(const struct step_context *context, uint32_t i, bool driven)
 {
     const struct entities *m = context->m;
-    bool spins = m->spin_x[i] != 0.0 || m->spin_y[i] != 0.0 || m->spin_z[i] != 0.0;
-    if (!(m->flags[i] & ENTITY_FLAG_CHASSIS)) {
+    bool spins = m->row[i].spin_x != 0.0 || m->row[i].spin_y != 0.0 || m->row[i].spin_z != 0.0;
+    if (!(m->row[i].flags & ENTITY_FLAG_CHASSIS)) {
         if (!driven && !spins)
             return false;
-        m->dodge[i] = driven ? 0.0f : m->dodge[i];
+        m->row[i].dodge = driven ? 0.0f : m->row[i].dodge;
         chassis_disturb(context, i);
         take_slope(context, i);
     }
-    return driven || calm_s(context, i) < CHASSIS_CALM_S || m->jolt_tick[i] == ENTITY_PINNED;
+    return driven || calm_s(context, i) < CHASSIS_CALM_S || m->row[i].jolt_tick == ENTITY_PINNED;
 }
 
 /* --- rest and calm -----------------------------------------------------------------------------*/
@@ -127,8 +127,8 @@ static void hold(const struct step_context *context, uint32_t i, struct rigid_bo
 {
     struct entities *m = context->m;
     body->velocity = body->spin = (struct vec3){0.0, 0.0, 0.0};
-    m->vx[i] = m->vy[i] = m->vz[i] = 0.0;
-    m->spin_x[i] = m->spin_y[i] = m->spin_z[i] = 0.0;
+    m->row[i].vx = m->row[i].vy = m->row[i].vz = 0.0;
+    m->row[i].spin_x = m->row[i].spin_y = m->row[i].spin_z = 0.0;
 }
 
 /* Where a row is, and how it heads and leans. */
@@ -139,7 +139,8 @@ struct stance {
 
 static struct stance stance_of(const struct entities *m, uint32_t i)
 {
-    return (struct stance){entities_position(m, i), m->heading[i], m->pitch[i], m->roll[i]};
+    return (struct stance){entities_position(m, i), m->row[i].heading, m->row[i].pitch,
+                           m->row[i].roll};
 }
 
 /* Returns by how much a row's height and angles are above those of a vehicle that follows the
@@ -211,16 +212,16 @@ static bool stop_at_edge(const struct step_context *context, uint32_t i, double 
 {
     struct entities *m = context->m;
     double sine, cosine;
-    maths_sincos(m->heading[i], &sine, &cosine);
-    double lead = m->vx[i] * sine - m->vz[i] * cosine < 0.0 ? -0.5 : 0.5;
-    lead *= context->world->kinds[m->kind[i]].length_m;
-    if ((m->x[i] == x && m->z[i] == z) ||
-        (world_holds(context->world, m->x[i], m->z[i]) &&
-         world_holds(context->world, m->x[i] + sine * lead, m->z[i] - cosine * lead)))
+    maths_sincos(m->row[i].heading, &sine, &cosine);
+    double lead = m->row[i].vx * sine - m->row[i].vz * cosine < 0.0 ? -0.5 : 0.5;
+    lead *= context->world->kinds[m->row[i].kind].length_m;
+    if ((m->row[i].x == x && m->row[i].z == z) ||
+        (world_holds(context->world, m->row[i].x, m->row[i].z) &&
+         world_holds(context->world, m->row[i].x + sine * lead, m->row[i].z - cosine * lead)))
         return false;
-    m->x[i] = x;
-    m->z[i] = z;
-    m->vx[i] = m->vz[i] = 0.0;
+    m->row[i].x = x;
+    m->row[i].z = z;
+    m->row[i].vx = m->row[i].vz = 0.0;
     return true;
 }
 
@@ -239,11 +240,11 @@ static bool stays_pinned(const struct step_context *context, uint32_t i,
                          const struct desired_motion *desired)
 {
     const struct entities *m = context->m;
-    bool turns = desired->driven ? desired->turn != (double)m->dodge[i]
-                                 : desired->heading_rad != m->heading[i];
+    bool turns = desired->driven ? desired->turn != (double)m->row[i].dodge
+                                 : desired->heading_rad != m->row[i].heading;
     bool yaws =
-        desired->driven && desired->turn != 0.0 && context->world->kinds[m->kind[i]].tracked;
-    return m->jolt_tick[i] == ENTITY_PINNED && desired->speed_mps == 0.0 && !turns && !yaws &&
+        desired->driven && desired->turn != 0.0 && context->world->kinds[m->row[i].kind].tracked;
+    return m->row[i].jolt_tick == ENTITY_PINNED && desired->speed_mps == 0.0 && !turns && !yaws &&
            desired->gear != GEAR_NEUTRAL && entities_still(m, i);
 }
 
@@ -253,9 +254,9 @@ static void take_harm(const struct chassis *chassis, uint32_t i)
 {
     struct entities *m = chassis->context->m;
     if (chassis->fall_j + chassis->strike_j > 0.0)
-        m->harm_j[i] += FALL_HARM * chassis->fall_j + chassis->strike_j;
-    if (overturned(m->pitch[i], m->roll[i]))
-        m->harm_j[i] = maths_max(m->harm_j[i], chassis->kind->resistance_j);
+        m->row[i].harm_j += FALL_HARM * chassis->fall_j + chassis->strike_j;
+    if (overturned(m->row[i].pitch, m->row[i].roll))
+        m->row[i].harm_j = maths_max(m->row[i].harm_j, chassis->kind->resistance_j);
 }
 
 /* Moves row i for a sub-step, the time of the context. Returns true if something blocks it. */
@@ -275,11 +276,11 @@ static bool substep(const struct step_context *context, uint32_t i,
     else
         rigid_body_put(context, i, &chassis.body);
     if (desired->driven)
-        m->dodge[i] = (float)chassis.drivetrain.wheel;
+        m->row[i].dodge = (float)chassis.drivetrain.wheel;
     take_harm(&chassis, i);
     bool blocked = stop_at_edge(context, i, from.at.x, from.at.z) || chassis.drowns;
     if (desired->driven || !is_calm(&chassis, &before) || !follows_ground(&chassis, i, &from))
-        m->jolt_tick[i] = (uint32_t)context->tick;
+        m->row[i].jolt_tick = (uint32_t)context->tick;
     return blocked || (desired->speed_mps != 0.0 && chassis.drivetrain.wanted_mps == 0.0);
 }
 
@@ -290,20 +291,20 @@ bool chassis_move(const struct step_context *context, uint32_t i,
     const int count = (int)ceil(context->dt_s / CHASSIS_SUBSTEP_S - 1e-9);
     if (stays_pinned(context, i, desired)) {
         if (!kinematics_parked(m, i))
-            (void)burn(context, i, &context->world->kinds[m->kind[i]], desired);
+            (void)burn(context, i, &context->world->kinds[m->row[i].kind], desired);
         return false;
     }
-    if (m->jolt_tick[i] == ENTITY_PINNED)
-        m->jolt_tick[i] = (uint32_t)context->tick;
+    if (m->row[i].jolt_tick == ENTITY_PINNED)
+        m->row[i].jolt_tick = (uint32_t)context->tick;
     if (count == 1)
         return substep(context, i, desired);
     struct step_context shorter = *context;
     struct desired_motion now = *desired;
     shorter.dt_s = context->dt_s / count;
-    bool blocked = false, straight = desired->heading_rad == m->heading[i];
+    bool blocked = false, straight = desired->heading_rad == m->row[i].heading;
     for (int n = 0; n < count; n++) {
         if (straight) /* whoever wants no turn steers against none that its body makes */
-            now.heading_rad = m->heading[i];
+            now.heading_rad = m->row[i].heading;
         blocked |= substep(&shorter, i, &now);
     }
     return blocked;

@@ -2,7 +2,7 @@
  *
  * Nearly all land vehicles follow the ground (mover/motion/ground_vehicle.h). A row with
  * ENTITY_FLAG_CHASSIS moves as a body instead: on wheels or road wheels, each a ray with a spring,
- * a damper and a tyre; it rolls, slides, jumps and overturns. The column jolt_tick says when it was
+ * a damper and a tyre; it rolls, slides, jumps and overturns. The field jolt_tick says when it was
  * last disturbed. After CHASSIS_CALM_S without disturbance it follows the ground again.
  * ground_vehicle.c then moves its height and its angles to those of the ground bit by bit, and
  * takes the flag away when they agree.
@@ -10,7 +10,7 @@
  * The mover sets the flag for a row that is driven or spins, and where the ground is rough for its
  * speed. The collider sets it for a row that is pushed. All of this follows from the row's state
  * and the ground. Nothing but the row's position, pose, velocity and spin is kept between frames,
- * and of a driven row where its steering wheel is: -1..1 in the column dodge, which avoidance does
+ * and of a driven row where its steering wheel is: -1..1 in the field dodge, which avoidance does
  * not need then.
  *
  * A hard landing adds to harm_j. The collider makes damage of it.

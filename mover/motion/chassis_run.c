@@ -312,21 +312,22 @@ void chassis_run_begin(struct chassis *chassis, const struct step_context *conte
                        const struct desired_motion *desired)
 {
     const struct entities *m = context->m;
-    const uint8_t marks = ground_marks_at(context->ground_marks, m->x[i], m->z[i]);
+    const uint8_t marks = ground_marks_at(context->ground_marks, m->row[i].x, m->row[i].z);
     chassis->context = context;
-    chassis->kind = &context->world->kinds[m->kind[i]];
+    chassis->kind = &context->world->kinds[m->row[i].kind];
     chassis->body = rigid_body_take(context, i);
     chassis->desired = *desired;
     chassis->most_mps =
         maths_max(chassis->kind->max_speed_mps, 1e-9) * ground_vehicle_debris(context, i);
     chassis->cratered = false;
     chassis->littered = marks & GROUND_MARKS_DEBRIS;
-    chassis->bent = terrain_cache_bend(&context->world->terrain, &context->terrain_entries[i],
-                                       m->x[i], m->z[i]) > chassis_shell_bend(chassis->kind);
+    chassis->bent =
+        terrain_cache_bend(&context->world->terrain, &context->terrain_entries[i], m->row[i].x,
+                           m->row[i].z) > chassis_shell_bend(chassis->kind);
     chassis->level = true;
     chassis->drowns = false;
     chassis->fall_j = chassis->strike_j = 0.0;
-    chassis->friction = ground_grip_at(context, m->x[i], m->z[i]).friction;
+    chassis->friction = ground_grip_at(context, m->row[i].x, m->row[i].z).friction;
     chassis->drivetrain = drivetrain_of(context, i, desired);
     suspension_of(chassis->kind, chassis->cratered, &chassis->suspension);
     chassis->shell.count = 0;

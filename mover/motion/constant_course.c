@@ -12,23 +12,24 @@
 enum course_result constant_course_row(const struct step_context *context, uint32_t i)
 {
     struct entities *m = context->m;
-    const struct kind *kind = &context->world->kinds[m->kind[i]];
+    const struct kind *kind = &context->world->kinds[m->row[i].kind];
     bool aground = kind->domain == DOMAIN_SEA && ship_hold(context, i);
     const double side_m = context->world->terrain.squares.world_m;
-    double x = m->x[i] + m->vx[i] * context->dt_s, z = m->z[i] + m->vz[i] * context->dt_s;
+    double x = m->row[i].x + m->row[i].vx * context->dt_s,
+           z = m->row[i].z + m->row[i].vz * context->dt_s;
     if (x < 0.0 || z < 0.0 || x > side_m || z > side_m)
         return COURSE_LEFT_WORLD;
-    m->x[i] = x;
-    m->z[i] = z;
+    m->row[i].x = x;
+    m->row[i].z = z;
     if (kind->domain == DOMAIN_LAND)
         return COURSE_GROUND;
     if (kind->domain == DOMAIN_AIR) {
-        m->y[i] += m->vy[i] * context->dt_s;
+        m->row[i].y += m->row[i].vy * context->dt_s;
         return COURSE_DONE;
     }
     double y = kinematics_ground(context, x, z);
-    m->vy[i] = (y - m->y[i]) / context->dt_s;
-    m->y[i] = y;
+    m->row[i].vy = (y - m->row[i].y) / context->dt_s;
+    m->row[i].y = y;
     return aground ? COURSE_AGROUND : COURSE_DONE;
 }
 
@@ -43,7 +44,7 @@ bool constant_course_take(const struct step_context *context, struct constant_co
 {
     int l = batch->count++;
     batch->row[l] = i;
-    batch->heading.lane[l] = context->m->heading[i];
+    batch->heading.lane[l] = context->m->row[i].heading;
     ground_pose_take(context, &batch->pose, l, i);
     return batch->count == LANE_COUNT;
 }
@@ -51,9 +52,9 @@ bool constant_course_take(const struct step_context *context, struct constant_co
 /* Returns by how much row i of a table has to be lifted out of works and craters [m]. */
 static double lift_of(const struct step_context *context, const struct entities *e, uint32_t i)
 {
-    const struct rest_pose pose = {e->y[i], e->pitch[i], e->roll[i]};
-    return course_lift(context->world, context->craters, e->kind[i], e->x[i], e->z[i],
-                       e->heading[i], &pose);
+    const struct rest_pose pose = {e->row[i].y, e->row[i].pitch, e->row[i].roll};
+    return course_lift(context->world, context->craters, e->row[i].kind, e->row[i].x, e->row[i].z,
+                       e->row[i].heading, &pose);
 }
 
 /* Lifts row i, which comes from its springs, out of works and craters. A place that its springs
@@ -62,7 +63,8 @@ static void lift_sprung(const struct step_context *context, uint32_t i)
 {
     double left_m = lift_of(context, &context->committed->entities, i) -
                     GROUND_VEHICLE_EASE_MPS * context->dt_s;
-    context->m->y[i] += maths_max(0.0, lift_of(context, context->m, i) - maths_max(0.0, left_m));
+    context->m->row[i].y +=
+        maths_max(0.0, lift_of(context, context->m, i) - maths_max(0.0, left_m));
 }
 
 /* Writes height, pitch and roll of lane l, row i. A row that comes from its springs eases to them.
@@ -72,16 +74,17 @@ static void set_down(const struct step_context *context, const struct ground_pos
 {
     const struct entities *w = &context->committed->entities;
     struct entities *m = context->m;
-    m->y[i] = pose->y.lane[l];
-    m->pitch[i] = pose->pitch.lane[l];
-    m->roll[i] = pose->roll.lane[l];
+    m->row[i].y = pose->y.lane[l];
+    m->row[i].pitch = pose->pitch.lane[l];
+    m->row[i].roll = pose->roll.lane[l];
     if (pose->cratered.lane[l])
-        m->y[i] += lift_of(context, m, i);
-    if (!(m->flags[i] & ENTITY_FLAG_CHASSIS))
+        m->row[i].y += lift_of(context, m, i);
+    if (!(m->row[i].flags & ENTITY_FLAG_CHASSIS))
         return;
-    const struct rest_pose now = {m->y[i], m->pitch[i], m->roll[i]};
-    const struct rest_pose before = course_lift_pose(context->world, context->craters, m->kind[i],
-                                                     w->x[i], w->z[i], w->heading[i]);
+    const struct rest_pose now = {m->row[i].y, m->row[i].pitch, m->row[i].roll};
+    const struct rest_pose before =
+        course_lift_pose(context->world, context->craters, m->row[i].kind, w->row[i].x, w->row[i].z,
+                         w->row[i].heading);
     ground_vehicle_ease(context, i, &before, &now);
     if (pose->cratered.lane[l])
         lift_sprung(context, i);
@@ -101,8 +104,8 @@ void constant_course_set_down(const struct step_context *context, struct constan
     ground_pose_find(context, pose);
     for (int l = 0; l < batch->count; l++) {
         uint32_t i = batch->row[l];
-        double before = m->y[i];
+        double before = m->row[i].y;
         set_down(context, pose, l, i);
-        m->vy[i] = (m->y[i] - before) / context->dt_s;
+        m->row[i].vy = (m->row[i].y - before) / context->dt_s;
     }
 }

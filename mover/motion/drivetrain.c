@@ -62,18 +62,18 @@ struct drivetrain drivetrain_of(const struct step_context *context, uint32_t i,
                                 const struct desired_motion *desired)
 {
     const struct entities *m = context->m;
-    const struct kind *kind = &context->world->kinds[m->kind[i]];
+    const struct kind *kind = &context->world->kinds[m->row[i].kind];
     double most = kind->turn_rate_rps;
     double asked = desired->held
                        ? desired->turn * most
-                       : maths_wrap_half(desired->heading_rad - m->heading[i]) / context->dt_s;
+                       : maths_wrap_half(desired->heading_rad - m->row[i].heading) / context->dt_s;
     return (struct drivetrain){.kind = kind,
                                .wanted_mps = desired->speed_mps,
                                .slowing = desired->driven ? desired->brake : 1.0,
                                .hand_brake = desired->hand_brake,
                                .asked_rps = maths_clamp(asked, -most, most),
                                .turn = desired->turn,
-                               .wheel = maths_clamp((double)m->dodge[i], -1.0, 1.0),
+                               .wheel = maths_clamp((double)m->row[i].dodge, -1.0, 1.0),
                                .driven = desired->driven,
                                .neutral = desired->gear == GEAR_NEUTRAL};
 }

@@ -21,12 +21,12 @@ bool ground_pose_take(const struct step_context *context, struct ground_pose *po
     const struct entities *m = context->m;
     pose->ground.patch[l] = &context->terrain_entries[i];
     __builtin_prefetch(&context->terrain_entries[i + GROUND_POSE_AHEAD]);
-    pose->x.lane[l] = m->x[i];
-    pose->z.lane[l] = m->z[i];
-    if (pose->kind[l] == m->kind[i])
+    pose->x.lane[l] = m->row[i].x;
+    pose->z.lane[l] = m->row[i].z;
+    if (pose->kind[l] == m->row[i].kind)
         return false;
-    const struct kind *kind = &context->world->kinds[m->kind[i]];
-    pose->kind[l] = m->kind[i];
+    const struct kind *kind = &context->world->kinds[m->row[i].kind];
+    pose->kind[l] = m->row[i].kind;
     pose->half_length.lane[l] = maths_max(kind->length_m * 0.5, KIND_STANCE_LEAST_M);
     pose->half_width.lane[l] = maths_max(kind->width_m * 0.5, KIND_STANCE_LEAST_M);
     return true;

@@ -48,7 +48,7 @@ static struct rest_pose stands_at(const struct step_context *context,
                                   const struct ground_vehicle *batch, int l,
                                   const struct place *place)
 {
-    const struct kind *kind = &context->world->kinds[context->m->kind[batch->row[l]]];
+    const struct kind *kind = &context->world->kinds[context->m->row[batch->row[l]].kind];
     return rest_pose_of(&context->world->terrain, context->craters, kind, place->x, place->z,
                         place->heading);
 }
@@ -59,7 +59,7 @@ static bool is_in_hollow(const struct step_context *context, const struct ground
                          int l, double share, struct terrain_cache_entry *patch)
 {
     const struct terrain *terrain = &context->world->terrain;
-    const struct kind *kind = &context->world->kinds[context->m->kind[batch->row[l]]];
+    const struct kind *kind = &context->world->kinds[context->m->row[batch->row[l]].kind];
     const struct place place = place_of(context, batch, l, share);
     if (terrain_cache_bend(terrain, patch, place.x, place.z) <= batch->bend.lane[l])
         return false;
@@ -77,8 +77,8 @@ static bool bends(const struct step_context *context, const struct ground_vehicl
 {
     const struct entities *m = context->m;
     const struct terrain *terrain = &context->world->terrain;
-    const double x = batch->pose.x.lane[l], back_x = m->x[batch->row[l]] - x;
-    const double z = batch->pose.z.lane[l], back_z = m->z[batch->row[l]] - z;
+    const double x = batch->pose.x.lane[l], back_x = m->row[batch->row[l]].x - x;
+    const double z = batch->pose.z.lane[l], back_z = m->row[batch->row[l]].z - z;
     const double way_m = sqrt(back_x * back_x + back_z * back_z);
     const int looks = (int)ceil(way_m / (0.5 * terrain->spacing_m));
     struct terrain_cache_entry patch = {0};
@@ -95,8 +95,8 @@ static bool passes_hollow(const struct step_context *context, const struct groun
     if (!bends(context, batch, l, bend))
         return false;
     const struct entities *m = context->m;
-    const double x = m->x[batch->row[l]] - batch->pose.x.lane[l];
-    const double z = m->z[batch->row[l]] - batch->pose.z.lane[l];
+    const double x = m->row[batch->row[l]].x - batch->pose.x.lane[l];
+    const double z = m->row[batch->row[l]].z - batch->pose.z.lane[l];
     const double vx = batch->vx.lane[l], vz = batch->vz.lane[l];
     const int looks = 1 + (int)ceil(sqrt(x * x + z * z) / LOOK_M);
     const int beyond = (int)ceil(2.0 * context->dt_s * sqrt(vx * vx + vz * vz) / LOOK_M);
@@ -114,8 +114,8 @@ static bool passes_marks(const struct step_context *context, const struct ground
                          int l)
 {
     const struct entities *m = context->m;
-    const double x = m->x[batch->row[l]], to_x = batch->pose.x.lane[l];
-    const double z = m->z[batch->row[l]], to_z = batch->pose.z.lane[l];
+    const double x = m->row[batch->row[l]].x, to_x = batch->pose.x.lane[l];
+    const double z = m->row[batch->row[l]].z, to_z = batch->pose.z.lane[l];
     if (batch->frames <= context->cruise_short)
         return batch->pose.cratered.lane[l] != 0 || batch->debris.lane[l] != 1.0;
     struct gridsquare_box box =
@@ -145,7 +145,7 @@ static bool is_uneven(const struct step_context *context, const struct ground_ve
     const struct place place = place_of(context, batch, l, share);
     const struct rest_pose pose = stands_at(context, batch, l, &place);
     const double end_y = batch->pose.y.lane[l];
-    const double line_y = end_y + share * (context->m->y[batch->row[l]] - end_y);
+    const double line_y = end_y + share * (context->m->row[batch->row[l]].y - end_y);
     return fabs(pose.pitch_rad) > CHASSIS_TILT_RAD || fabs(pose.roll_rad) > CHASSIS_TILT_RAD ||
            fabs(pose.y_m - line_y) > LINE_OFF_M || is_too_steep(batch, l, pose.pitch_rad) ||
            cover_is_water(terrain_cover(&context->world->terrain, place.x, place.z));
@@ -180,8 +180,8 @@ void ground_stretch_refuse(const struct step_context *context, struct ground_veh
         double turned = fabs(batch->turned.lane[l]);
         double gain = fabs(batch->gain_mps2.lane[l]) * dt_s;
         double most = batch->reaches.lane[l] ? GAIN_MPS : PULL_MPS;
-        double x = 0.5 * (m->x[i] + batch->pose.x.lane[l]);
-        double z = 0.5 * (m->z[i] + batch->pose.z.lane[l]);
+        double x = 0.5 * (m->row[i].x + batch->pose.x.lane[l]);
+        double z = 0.5 * (m->row[i].z + batch->pose.z.lane[l]);
         bool easy = !batch->rough.lane[l] && !batch->blocked.lane[l] && !batch->tight.lane[l] &&
                     !passes_marks(context, batch, l) && turned <= TURN_RAD && gain <= most &&
                     rightward->lane[l] == 0.0 && !passes_hollow(context, batch, l, bend.lane[l]) &&

@@ -36,10 +36,10 @@
 double ground_vehicle_debris(const struct step_context *context, uint32_t i)
 {
     const struct entities *m = context->m;
-    if (!(ground_marks_at(context->ground_marks, m->x[i], m->z[i]) & GROUND_MARKS_DEBRIS))
+    if (!(ground_marks_at(context->ground_marks, m->row[i].x, m->row[i].z) & GROUND_MARKS_DEBRIS))
         return 1.0;
     return ground_debris_share(context->world, context->committed,
-                               &context->world->kinds[m->kind[i]], m->x[i], m->z[i]);
+                               &context->world->kinds[m->row[i].kind], m->row[i].x, m->row[i].z);
 }
 
 void ground_vehicle_begin(struct ground_vehicle *batch, uint32_t frames)
@@ -53,7 +53,7 @@ void ground_vehicle_begin(struct ground_vehicle *batch, uint32_t frames)
 static bool is_uneven_near(const struct step_context *context, const struct ground_vehicle *batch,
                            int l)
 {
-    const struct kind *kind = &context->world->kinds[context->m->kind[batch->row[l]]];
+    const struct kind *kind = &context->world->kinds[context->m->row[batch->row[l]].kind];
     const double speed = fabs(batch->vx.lane[l]) + fabs(batch->vz.lane[l]) +
                          kind->acceleration_mps2 * BRAKES * context->dt_s;
     return terrain_uneven_near(&context->world->terrain, context->craters, batch->pose.x.lane[l],
@@ -72,7 +72,7 @@ static void find_scars(const struct step_context *context, struct ground_vehicle
             batch->pose.cratered.lane[l] = -(int64_t)is_uneven_near(context, batch, l);
         if (!debris.lane[l])
             continue;
-        const struct kind *kind = &context->world->kinds[context->m->kind[batch->row[l]]];
+        const struct kind *kind = &context->world->kinds[context->m->row[batch->row[l]].kind];
         batch->debris.lane[l] = ground_debris_share(context->world, context->committed, kind,
                                                     pose->x.lane[l], pose->z.lane[l]);
     }
@@ -105,14 +105,14 @@ static inline int take_row(const struct step_context *context, struct ground_veh
     const struct entities *m = context->m;
     int l = batch->count++;
     if (ground_pose_take(context, &batch->pose, l, i))
-        take_kind(batch, l, &context->world->kinds[m->kind[i]]);
+        take_kind(batch, l, &context->world->kinds[m->row[i].kind]);
     batch->row[l] = i;
-    batch->y.lane[l] = m->y[i];
-    batch->vx.lane[l] = m->vx[i];
-    batch->vz.lane[l] = m->vz[i];
-    batch->heading.lane[l] = m->heading[i];
-    batch->pitch.lane[l] = m->pitch[i];
-    batch->fuel.lane[l] = m->fuel_l[i];
+    batch->y.lane[l] = m->row[i].y;
+    batch->vx.lane[l] = m->row[i].vx;
+    batch->vz.lane[l] = m->row[i].vz;
+    batch->heading.lane[l] = m->row[i].heading;
+    batch->pitch.lane[l] = m->row[i].pitch;
+    batch->fuel.lane[l] = m->row[i].fuel_l;
     batch->burns.lane[l] = kinematics_parked(m, i) ? 0.0 : 1.0;
     return l;
 }
@@ -133,8 +133,8 @@ bool ground_vehicle_take_held(const struct step_context *context, struct ground_
     int l = take_row(context, batch, i);
     if (batch->frames == 1)
         batch->burns.lane[l] = (double)kinematics_burn_frames(context, i);
-    batch->turn.lane[l] = (double)context->m->steer[i];
-    batch->wanted_mps.lane[l] = (double)context->m->throttle[i];
+    batch->turn.lane[l] = (double)context->m->row[i].steer;
+    batch->wanted_mps.lane[l] = (double)context->m->row[i].throttle;
     batch->held.lane[l] = -1;
     return batch->count == LANE_COUNT;
 }
@@ -331,7 +331,7 @@ static void heed_fords(const struct step_context *context, const struct ground_v
 {
     const struct terrain *terrain = &context->world->terrain;
     for (int l = 0; l < batch->count; l++) {
-        const struct kind *kind = &context->world->kinds[context->m->kind[batch->row[l]]];
+        const struct kind *kind = &context->world->kinds[context->m->row[batch->row[l]].kind];
         if (batch->pose.cratered.lane[l] &&
             terrain_water_depth(terrain, x->lane[l], z->lane[l]) > kind->ford_m)
             pass->lane[l] = 0;
@@ -393,7 +393,7 @@ static void run_into_water(const struct step_context *context, struct ground_veh
 {
     const double stops_mps = GROUND_GRIP * GRAVITY_MPS2 * ground_vehicle_time_s(context, batch);
     for (int l = 0; l < batch->count; l++) {
-        const struct kind *kind = &context->world->kinds[context->m->kind[batch->row[l]]];
+        const struct kind *kind = &context->world->kinds[context->m->row[batch->row[l]].kind];
         double vx = batch->vx.lane[l], vz = batch->vz.lane[l];
         if (!stays->lane[l] || vx * vx + vz * vz <= stops_mps * stops_mps ||
             !fording_passable(context, kind, ahead->x.lane[l], ahead->z.lane[l]) ||
@@ -452,9 +452,9 @@ static struct rest_pose eased(const struct step_context *context, uint32_t i,
     const double most_m = GROUND_VEHICLE_EASE_MPS * context->dt_s,
                  most_rad = EASE_RPS * context->dt_s;
     return (struct rest_pose){
-        now->y_m + kinematics_approach(w->y[i] - before->y_m, 0.0, most_m),
-        now->pitch_rad + kinematics_approach(w->pitch[i] - before->pitch_rad, 0.0, most_rad),
-        now->roll_rad + kinematics_approach(w->roll[i] - before->roll_rad, 0.0, most_rad)};
+        now->y_m + kinematics_approach(w->row[i].y - before->y_m, 0.0, most_m),
+        now->pitch_rad + kinematics_approach(w->row[i].pitch - before->pitch_rad, 0.0, most_rad),
+        now->roll_rad + kinematics_approach(w->row[i].roll - before->roll_rad, 0.0, most_rad)};
 }
 
 void ground_vehicle_ease(const struct step_context *context, uint32_t i,
@@ -462,12 +462,12 @@ void ground_vehicle_ease(const struct step_context *context, uint32_t i,
 {
     struct entities *m = context->m;
     const struct rest_pose to = eased(context, i, before, now);
-    m->y[i] = to.y_m;
-    m->pitch[i] = to.pitch_rad;
-    m->roll[i] = to.roll_rad;
-    m->spin_x[i] = m->spin_y[i] = m->spin_z[i] = 0.0;
+    m->row[i].y = to.y_m;
+    m->row[i].pitch = to.pitch_rad;
+    m->row[i].roll = to.roll_rad;
+    m->row[i].spin_x = m->row[i].spin_y = m->row[i].spin_z = 0.0;
     if (to.y_m == now->y_m && to.pitch_rad == now->pitch_rad && to.roll_rad == now->roll_rad)
-        m->flags[i] &= (uint8_t)~ENTITY_FLAG_CHASSIS;
+        m->row[i].flags &= (uint8_t)~ENTITY_FLAG_CHASSIS;
 }
 
 /* Returns how the ground bears the row where it has moved to. */
@@ -482,8 +482,8 @@ static struct rest_pose ground_before(const struct step_context *context, uint32
 {
     const struct entities *w = &context->committed->entities;
     return rest_pose_of(&context->world->terrain, context->craters,
-                        &context->world->kinds[context->m->kind[i]], w->x[i], w->z[i],
-                        w->heading[i]);
+                        &context->world->kinds[context->m->row[i].kind], w->row[i].x, w->row[i].z,
+                        w->row[i].heading);
 }
 
 /* Returns the pose that the ground gives the row, which has moved. */
@@ -492,7 +492,7 @@ static struct rest_pose set_on(const struct step_context *context,
 {
     const uint32_t i = batch->row[l];
     const struct rest_pose ground = ground_of(batch, l);
-    if (!(context->m->flags[i] & ENTITY_FLAG_CHASSIS))
+    if (!(context->m->row[i].flags & ENTITY_FLAG_CHASSIS))
         return ground;
     const struct rest_pose before = ground_before(context, i);
     return eased(context, i, &before, &ground);
@@ -503,14 +503,14 @@ static void set_down(const struct step_context *context, const struct ground_veh
     struct entities *m = context->m;
     const struct rest_pose ground = ground_of(batch, l);
     uint32_t i = batch->row[l];
-    if (m->flags[i] & ENTITY_FLAG_CHASSIS) {
+    if (m->row[i].flags & ENTITY_FLAG_CHASSIS) {
         const struct rest_pose before = ground_before(context, i);
         ground_vehicle_ease(context, i, &before, &ground);
         return;
     }
-    m->y[i] = ground.y_m;
-    m->pitch[i] = ground.pitch_rad;
-    m->roll[i] = ground.roll_rad;
+    m->row[i].y = ground.y_m;
+    m->row[i].pitch = ground.pitch_rad;
+    m->row[i].roll = ground.roll_rad;
 }
 
 /* Returns how fast a row climbs that leaves the ground with this pitch [m/s]. */
@@ -537,7 +537,7 @@ static enum entry entry_of(const struct step_context *context, const struct grou
 {
     const uint32_t i = batch->row[l];
     const struct entities *w = &context->committed->entities, *m = context->m;
-    const struct kind *kind = &context->world->kinds[m->kind[i]];
+    const struct kind *kind = &context->world->kinds[m->row[i].kind];
     const struct terrain *terrain = &context->world->terrain;
     const struct ground_pose *pose = &batch->pose;
     const struct crater_index *craters = pose->cratered.lane[l] ? context->craters : NULL;
@@ -552,12 +552,12 @@ static enum entry entry_of(const struct step_context *context, const struct grou
     if (vehicle_shell_depth(terrain, craters, kind, points, at, &turn) <= 0.0 &&
         vehicle_shell_depth(terrain, craters, kind, points, vec3_add(at, way), &turn) <= 0.0)
         return STAYS_OUT;
-    turn = rotation_matrix(rotation_of(heading, batch->pitch.lane[l], w->roll[i]));
+    turn = rotation_matrix(rotation_of(heading, batch->pitch.lane[l], w->row[i].roll));
     at.y = batch->y.lane[l] + climb_of(batch, l, heading, batch->pitch.lane[l]) * dt_s;
     if (vehicle_shell_depth(terrain, craters, kind, points, at, &turn) <= 0.0)
         return LEAVES_HERE;
-    turn = rotation_matrix(rotation_of(m->heading[i], batch->pitch.lane[l], w->roll[i]));
-    at = (struct vec3){m->x[i], batch->y.lane[l], m->z[i]};
+    turn = rotation_matrix(rotation_of(m->row[i].heading, batch->pitch.lane[l], w->row[i].roll));
+    at = (struct vec3){m->row[i].x, batch->y.lane[l], m->row[i].z};
     return pose->cratered.lane[l] &&
                    vehicle_shell_depth(terrain, craters, kind, points, at, &turn) <= LEAVES_DEEP_M
                ? LEAVES_BEFORE
@@ -592,13 +592,13 @@ static void find_jolts(const struct step_context *context, struct ground_vehicle
     const double most_m = LIFTS_MPS * context->dt_s;
     for (int l = 0; l < batch->count; l++) {
         const uint32_t i = batch->row[l];
-        struct crater_footing before = {.x = m->x[i],
-                                        .z = m->z[i],
+        struct crater_footing before = {.x = m->row[i].x,
+                                        .z = m->row[i].z,
                                         .half_length = batch->pose.half_length.lane[l],
                                         .half_width = batch->pose.half_width.lane[l]};
         if (batch->rough.lane[l] || batch->pose.lift.lane[l] <= most_m)
             continue;
-        maths_sincos(m->heading[i], &before.sine, &before.cosine);
+        maths_sincos(m->row[i].heading, &before.sine, &before.cosine);
         if (batch->pose.lift.lane[l] - most_m >
             terrain_lift(&context->world->terrain, context->craters, &before))
             batch->rough.lane[l] = -1;
@@ -613,14 +613,14 @@ static bool slides(const struct step_context *context, const struct ground_vehic
     const uint32_t i = batch->row[l];
     const double dt_s = ground_vehicle_time_s(context, batch);
     const double before =
-        m->vx[i] * batch->pose.sine.lane[l] - m->vz[i] * batch->pose.cosine.lane[l];
-    const double turned = maths_wrap_half(batch->heading.lane[l] - m->heading[i]);
+        m->row[i].vx * batch->pose.sine.lane[l] - m->row[i].vz * batch->pose.cosine.lane[l];
+    const double turned = maths_wrap_half(batch->heading.lane[l] - m->row[i].heading);
     const struct chassis_slope slope = {.pitch_rad = batch->pose.pitch.lane[l],
                                         .roll_rad = batch->pose.roll.lane[l],
                                         .gain_mps2 = (forward - before) / dt_s,
                                         .lateral_mps2 = forward * turned / dt_s};
     return !chassis_holds(
-        &context->world->kinds[m->kind[i]],
+        &context->world->kinds[m->row[i].kind],
         ground_grip_at(context, batch->pose.x.lane[l], batch->pose.z.lane[l]).friction, &slope);
 }
 
@@ -671,7 +671,7 @@ static inline void find_rough(const struct step_context *context, struct ground_
 static void keep_sprung(const struct step_context *context, struct ground_vehicle *batch)
 {
     for (int l = 0; l < batch->count; l++) {
-        const bool comes_back = context->m->flags[batch->row[l]] & ENTITY_FLAG_CHASSIS;
+        const bool comes_back = context->m->row[batch->row[l]].flags & ENTITY_FLAG_CHASSIS;
         batch->refused.lane[l] = comes_back ? batch->rough.lane[l] : 0;
     }
 }
@@ -687,18 +687,18 @@ static void leave_rails(const struct step_context *context, const struct ground_
     if (!batch->rough.lane[l])
         return;
     chassis_disturb(context, i);
-    m->spin_y[i] = -maths_wrap_half(turned_rad) / context->dt_s;
+    m->row[i].spin_y = -maths_wrap_half(turned_rad) / context->dt_s;
     if (batch->slides.lane[l]) {
-        m->vy[i] = climb_of(batch, l, m->heading[i], m->pitch[i]);
+        m->row[i].vy = climb_of(batch, l, m->row[i].heading, m->row[i].pitch);
         return;
     }
-    double pitch = batch->pitch.lane[l], climb = climb_of(batch, l, m->heading[i], pitch);
-    m->vy[i] = climb;
-    m->y[i] = batch->y.lane[l] + climb * context->dt_s;
-    m->pitch[i] = pitch;
-    m->roll[i] = context->committed->entities.roll[i];
+    double pitch = batch->pitch.lane[l], climb = climb_of(batch, l, m->row[i].heading, pitch);
+    m->row[i].vy = climb;
+    m->row[i].y = batch->y.lane[l] + climb * context->dt_s;
+    m->row[i].pitch = pitch;
+    m->row[i].roll = context->committed->entities.row[i].roll;
     if (batch->walled.lane[l])
-        m->y[i] = batch->y.lane[l];
+        m->row[i].y = batch->y.lane[l];
 }
 
 /* --- rows --------------------------------------------------------------------------------------*/
@@ -709,7 +709,7 @@ static void write_rows(const struct step_context *context, const struct ground_v
     const double dt_s = ground_vehicle_time_s(context, batch);
     for (int l = 0; l < batch->count; l++) {
         uint32_t i = batch->row[l];
-        double turned = batch->heading.lane[l] - m->heading[i];
+        double turned = batch->heading.lane[l] - m->row[i].heading;
         if (batch->refused.lane[l])
             continue;
         if (batch->frames > 1)
@@ -718,17 +718,17 @@ static void write_rows(const struct step_context *context, const struct ground_v
                                                        .turned_rad = batch->turned.lane[l],
                                                        .gain_mps2 = batch->gain_mps2.lane[l]});
         else
-            m->cruise_tick[i] = 0;
+            m->row[i].cruise_tick = 0;
         set_down(context, batch, l);
         if (!batch->walled.lane[l]) {
-            m->x[i] = batch->pose.x.lane[l];
-            m->z[i] = batch->pose.z.lane[l];
-            m->heading[i] = batch->heading.lane[l];
+            m->row[i].x = batch->pose.x.lane[l];
+            m->row[i].z = batch->pose.z.lane[l];
+            m->row[i].heading = batch->heading.lane[l];
         }
-        m->vx[i] = batch->vx.lane[l];
-        m->vy[i] = (m->y[i] - batch->y.lane[l]) / dt_s;
-        m->vz[i] = batch->vz.lane[l];
-        m->fuel_l[i] = batch->fuel.lane[l];
+        m->row[i].vx = batch->vx.lane[l];
+        m->row[i].vy = (m->row[i].y - batch->y.lane[l]) / dt_s;
+        m->row[i].vz = batch->vz.lane[l];
+        m->row[i].fuel_l = batch->fuel.lane[l];
         leave_rails(context, batch, l, turned);
     }
 }

@@ -43,13 +43,13 @@ double kinematics_turn(double heading, double wanted, double rate_rps, double dt
 
 void kinematics_tell(const struct step_context *context, uint32_t i, uint8_t trigger)
 {
-    context->m->trigger[i] = trigger;
+    context->m->row[i].trigger = trigger;
 }
 
 void kinematics_steer(const struct step_context *context, uint32_t i,
                       const struct desired_motion *desired, double rate_rps)
 {
-    double *heading = &context->m->heading[i];
+    double *heading = &context->m->row[i].heading;
     if (desired->driven)
         *heading = maths_wrap_turn(*heading + desired->turn * rate_rps * context->dt_s);
     else
@@ -59,8 +59,8 @@ void kinematics_steer(const struct step_context *context, uint32_t i,
 void kinematics_along(const struct entities *m, uint32_t i, double sine, double cosine,
                       double *forward, double *rightward)
 {
-    *forward = m->vx[i] * sine - m->vz[i] * cosine;
-    *rightward = m->vx[i] * cosine + m->vz[i] * sine;
+    *forward = m->row[i].vx * sine - m->row[i].vz * cosine;
+    *rightward = m->row[i].vx * cosine + m->row[i].vz * sine;
 }
 
 double kinematics_approach(double value, double wanted, double step)
@@ -79,11 +79,11 @@ void kinematics_advance(const struct step_context *context, double *metres, doub
 bool kinematics_burn(const struct step_context *context, uint32_t i, double share)
 {
     struct entities *m = context->m;
-    const struct kind *kind = &context->world->kinds[m->kind[i]];
+    const struct kind *kind = &context->world->kinds[m->row[i].kind];
     if (!(kind->fuel_l > 0.0))
         return true;
-    m->fuel_l[i] = maths_max(0.0, m->fuel_l[i] - kind->fuel_lps * share * context->dt_s);
-    return m->fuel_l[i] > 0.0;
+    m->row[i].fuel_l = maths_max(0.0, m->row[i].fuel_l - kind->fuel_lps * share * context->dt_s);
+    return m->row[i].fuel_l > 0.0;
 }
 
 void kinematics_cruise(const struct step_context *context, uint32_t i,
@@ -91,10 +91,10 @@ void kinematics_cruise(const struct step_context *context, uint32_t i,
 {
     struct entities *m = context->m;
     const double per_s = 1.0 / (context->dt_s * (double)changes->frames);
-    m->cruise_tick[i] = (uint32_t)context->tick - 1 + changes->frames;
-    m->cruise_rps[i] = changes->turned_rad * per_s;
-    m->cruise_mps2[i] = changes->gain_mps2;
-    m->cruise_climb_mps2[i] = (float)(changes->climbed_mps * per_s);
-    m->cruise_pitch_rps[i] = (float)(changes->pitched_rad * per_s);
-    m->cruise_roll_rps[i] = (float)(changes->rolled_rad * per_s);
+    m->row[i].cruise_tick = (uint32_t)context->tick - 1 + changes->frames;
+    m->row[i].cruise_rps = changes->turned_rad * per_s;
+    m->row[i].cruise_mps2 = changes->gain_mps2;
+    m->row[i].cruise_climb_mps2 = (float)(changes->climbed_mps * per_s);
+    m->row[i].cruise_pitch_rps = (float)(changes->pitched_rad * per_s);
+    m->row[i].cruise_roll_rps = (float)(changes->rolled_rad * per_s);
 }

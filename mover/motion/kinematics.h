@@ -43,8 +43,8 @@ void kinematics_advance(const struct step_context *context, double *metres, doub
  * off. */
 static inline bool kinematics_parked(const struct entities *m, uint32_t i)
 {
-    return m->behaviour[i] == BEHAVIOUR_IDLE && m->order[i] == BEHAVIOUR_IDLE &&
-           m->throttle[i] == 0.0f && m->vx[i] == 0.0 && m->vz[i] == 0.0;
+    return m->row[i].behaviour == BEHAVIOUR_IDLE && m->row[i].order == BEHAVIOUR_IDLE &&
+           m->row[i].throttle == 0.0f && m->row[i].vx == 0.0 && m->row[i].vz == 0.0;
 }
 
 /* Returns how many frames' fuel the engine of row i, a land vehicle with an agent, burns in this
@@ -55,7 +55,7 @@ static inline uint32_t kinematics_burn_frames(const struct step_context *context
     const struct entities *m = context->m;
     if (kinematics_parked(m, i))
         return 0;
-    if (m->throttle[i] != 0.0f || m->vx[i] != 0.0 || m->vz[i] != 0.0)
+    if (m->row[i].throttle != 0.0f || m->row[i].vx != 0.0 || m->row[i].vz != 0.0)
         return 1;
     return step_context_thinks(context, i) ? context->think_frames : 0;
 }

@@ -22,12 +22,12 @@
 static double draw(const struct step_context *context, uint32_t i, enum random_purpose purpose)
 {
     const struct entities *m = context->m;
-    return random_unit(context->world->params->seed, m->born_tick[i], m->id[i], purpose);
+    return random_unit(context->world->params->seed, m->row[i].born_tick, m->row[i].id, purpose);
 }
 
 static double age_s(const struct step_context *context, uint32_t i)
 {
-    return (double)((uint32_t)context->tick - context->m->born_tick[i]) * context->dt_s;
+    return (double)((uint32_t)context->tick - context->m->row[i].born_tick) * context->dt_s;
 }
 
 /* --- speed -------------------------------------------------------------------------------------*/
@@ -36,7 +36,7 @@ static double speed_after(const struct step_context *context, uint32_t i, const 
                           double speed)
 {
     const struct entities *m = context->m;
-    double right = (double)m->steer[i], up = (double)m->climb[i], dt_s = context->dt_s;
+    double right = (double)m->row[i].steer, up = (double)m->row[i].climb, dt_s = context->dt_s;
     if (!(kind->burn_s > 0.0))
         return kinematics_approach(speed, kind->max_speed_mps, BOOST_MPS2 * dt_s);
     if (age_s(context, i) <= kind->burn_s) {
@@ -72,10 +72,10 @@ static bool is_decoyed(const struct step_context *context, uint32_t i, const str
                        const struct seen_target *sight)
 {
     const struct entities *w = &context->committed->entities;
-    uint32_t target = context->m->target_slot[i];
+    uint32_t target = context->m->row[i].target_slot;
     if (!decoy_due(w, target, sight->to, sight->closing, DECOY_S))
         return false;
-    bool land = context->world->kinds[w->kind[target]].domain == DOMAIN_LAND;
+    bool land = context->world->kinds[w->row[target].kind].domain == DOMAIN_LAND;
     return draw(context, i, RANDOM_DECOY) < kind->decoyed * (land ? SMOKE_SHARE : 1.0);
 }
 
@@ -85,15 +85,15 @@ static bool sees(const struct step_context *context, uint32_t i, const struct ki
 {
     struct entities *m = context->m;
     const struct entities *w = &context->committed->entities;
-    uint32_t target = m->target_slot[i];
-    if (m->target_id[i] == 0 || !entities_alive(w, target, m->target_id[i]))
+    uint32_t target = m->row[i].target_slot;
+    if (m->row[i].target_id == 0 || !entities_alive(w, target, m->row[i].target_id))
         return false;
     sight->to = vec3_sub(step_context_position(context, w, target), entities_position(m, i));
-    sight->to.y += kinematics_aim_height(context, w->kind[target]);
+    sight->to.y += kinematics_aim_height(context, w->row[target].kind);
     sight->closing = vec3_sub(step_context_velocity(context, w, target), velocity);
     if (lead_of(velocity, sight->to) <= kind->seeker_rad && !is_decoyed(context, i, kind, sight))
         return true;
-    m->target_slot[i] = m->target_id[i] = 0;
+    m->row[i].target_slot = m->row[i].target_id = 0;
     return false;
 }
 
@@ -139,8 +139,8 @@ static void navigate(const struct kind *kind, struct vec3 velocity, const struct
 static void swerve(const struct step_context *context, uint32_t i, double *right, double *up)
 {
     struct entities *m = context->m;
-    m->target_slot[i] = m->target_id[i] = 0;
-    *right = m->id[i] % 2 ? STUCK_FINS : -STUCK_FINS;
+    m->row[i].target_slot = m->row[i].target_id = 0;
+    *right = m->row[i].id % 2 ? STUCK_FINS : -STUCK_FINS;
     *up = -0.5 * STUCK_FINS;
 }
 
@@ -148,7 +148,7 @@ static void swerve(const struct step_context *context, uint32_t i, double *right
 static struct vec3 turned(const struct step_context *context, uint32_t i, const struct kind *kind,
                           const struct axes *axes, double speed)
 {
-    double right = (double)context->m->steer[i], up = (double)context->m->climb[i];
+    double right = (double)context->m->row[i].steer, up = (double)context->m->row[i].climb;
     double size = sqrt(right * right + up * up);
     double angle = size * kind->max_load * GRAVITY_MPS2 * context->dt_s / maths_max(speed, 1.0);
     if (size <= 0.0)
@@ -166,8 +166,8 @@ static void move_fins(const struct step_context *context, uint32_t i, double rig
     struct entities *m = context->m;
     double share = context->dt_s / (LAG_S + 0.5 * context->dt_s);
     share = maths_min(share, 1.0);
-    m->steer[i] += (float)((right - (double)m->steer[i]) * share);
-    m->climb[i] += (float)((up - (double)m->climb[i]) * share);
+    m->row[i].steer += (float)((right - (double)m->row[i].steer) * share);
+    m->row[i].climb += (float)((up - (double)m->row[i].climb) * share);
 }
 
 /* --- fuze --------------------------------------------------------------------------------------*/
@@ -178,7 +178,7 @@ static void burst_beside(const struct step_context *context, uint32_t i,
 {
     struct entities *m = context->m;
     const struct kind *target =
-        &context->world->kinds[context->committed->entities.kind[m->target_slot[i]]];
+        &context->world->kinds[context->committed->entities.row[m->row[i].target_slot].kind];
     double square = maths_max(vec3_dot(sight->closing, sight->closing), 1e-9);
     double nearest_s = -vec3_dot(sight->to, sight->closing) / square;
     if (target->domain != DOMAIN_AIR || nearest_s < 0.0 || nearest_s > context->dt_s)
@@ -187,7 +187,7 @@ static void burst_beside(const struct step_context *context, uint32_t i,
     if (vec3_length(miss) > target->radius_m + MISSILE_FUZE_M)
         return;
     entities_set_position(m, i, vec3_add(entities_position(m, i), vec3_scale(velocity, nearest_s)));
-    m->until_tick[i] = (uint32_t)context->tick;
+    m->row[i].until_tick = (uint32_t)context->tick;
 }
 
 void missile_move(const struct step_context *context, uint32_t i, const struct kind *kind)
@@ -210,6 +210,6 @@ void missile_move(const struct step_context *context, uint32_t i, const struct k
     struct vec3 to = vec3_add(entities_position(m, i), vec3_scale(velocity, context->dt_s));
     if (guided)
         burst_beside(context, i, &sight, velocity);
-    if (!guided || m->until_tick[i] != (uint32_t)context->tick)
+    if (!guided || m->row[i].until_tick != (uint32_t)context->tick)
         entities_set_position(m, i, to);
 }

@@ -7,7 +7,7 @@
  * smoke of an alert land vehicle. These two are drawn once for each missile. One that fails
  * swerves.
  *
- * Columns of a missile: steer and climb are its fins, -1..1 of the load limit to the right and up;
+ * Fields of a missile: steer and climb are its fins, -1..1 of the load limit to the right and up;
  * target_id becomes 0 when it has lost its target. */
 #ifndef JOLON_MOVER_MOTION_MISSILE_H
 #define JOLON_MOVER_MOTION_MISSILE_H

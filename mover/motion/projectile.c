@@ -47,14 +47,14 @@ static void fall(const struct step_context *context, uint32_t i, const struct ki
 void projectile_move(const struct step_context *context, uint32_t i)
 {
     struct entities *m = context->m;
-    const struct kind *kind = &context->world->kinds[m->kind[i]];
+    const struct kind *kind = &context->world->kinds[m->row[i].kind];
     if (kind->guidance == GUIDANCE_HOMING) {
         missile_move(context, i, kind);
     } else {
         fall(context, i, kind);
     }
-    double level = sqrt(m->vx[i] * m->vx[i] + m->vz[i] * m->vz[i]);
+    double level = sqrt(m->row[i].vx * m->row[i].vx + m->row[i].vz * m->row[i].vz);
     if (level > 0.0)
-        m->heading[i] = maths_heading(m->vx[i], m->vz[i]);
-    m->pitch[i] = maths_atan2(m->vy[i], level);
+        m->row[i].heading = maths_heading(m->row[i].vx, m->row[i].vz);
+    m->row[i].pitch = maths_atan2(m->row[i].vy, level);
 }

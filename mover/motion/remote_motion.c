@@ -14,7 +14,7 @@ static const struct mat3 identity = {{{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.
 
 static unsigned model_of(const struct entities *m, uint32_t i)
 {
-    return m->order_arg[i] & REMOTE_MODEL_MASK;
+    return m->row[i].order_arg & REMOTE_MODEL_MASK;
 }
 
 static bool turns(unsigned model)
@@ -31,23 +31,23 @@ static bool accelerates(unsigned model)
 
 static struct vec3 spin_of(const struct entities *m, uint32_t i)
 {
-    return (struct vec3){m->spin_x[i], m->spin_y[i], m->spin_z[i]};
+    return (struct vec3){m->row[i].spin_x, m->row[i].spin_y, m->row[i].spin_z};
 }
 
 /* The owner has been silent for too long to be extrapolated. */
 static void stop(struct entities *m, uint32_t i)
 {
-    m->order_arg[i] = (m->order_arg[i] & ~REMOTE_MODEL_MASK) | DEAD_RECKONING_STATIC;
+    m->row[i].order_arg = (m->row[i].order_arg & ~REMOTE_MODEL_MASK) | DEAD_RECKONING_STATIC;
     entities_set_velocity(m, i, (struct vec3){0.0, 0.0, 0.0});
-    m->spin_x[i] = m->spin_y[i] = m->spin_z[i] = 0.0;
-    m->climb[i] = m->traverse[i] = m->elevate[i] = 0.0f;
+    m->row[i].spin_x = m->row[i].spin_y = m->row[i].spin_z = 0.0;
+    m->row[i].climb = m->row[i].traverse = m->row[i].elevate = 0.0f;
 }
 
 static void set_acceleration(struct entities *m, uint32_t i, struct vec3 acceleration)
 {
-    m->climb[i] = (float)acceleration.x;
-    m->traverse[i] = (float)acceleration.y;
-    m->elevate[i] = (float)acceleration.z;
+    m->row[i].climb = (float)acceleration.x;
+    m->row[i].traverse = (float)acceleration.y;
+    m->row[i].elevate = (float)acceleration.z;
 }
 
 /* Leads a row whose axes turn with the body to its state one frame later. The body axes of the
@@ -91,9 +91,9 @@ static void turn(const struct step_context *context, uint32_t i, struct vec3 rat
     struct entities *m = context->m;
     if (vec3_dot(rates_rps, rates_rps) == 0.0)
         return;
-    struct quat now = rotation_of(m->heading[i], m->pitch[i], m->roll[i]);
-    rotation_angles(rotation_spun(now, rates_rps, context->dt_s), &m->heading[i], &m->pitch[i],
-                    &m->roll[i]);
+    struct quat now = rotation_of(m->row[i].heading, m->row[i].pitch, m->row[i].roll);
+    rotation_angles(rotation_spun(now, rates_rps, context->dt_s), &m->row[i].heading,
+                    &m->row[i].pitch, &m->row[i].roll);
 }
 
 bool remote_motion_stands(const struct entities *m, uint32_t i)
@@ -105,7 +105,7 @@ bool remote_motion_move(const struct step_context *context, uint32_t i)
 {
     struct entities *m = context->m;
     uint32_t tick = (uint32_t)context->tick;
-    double silent_s = (double)(tick - m->seen_tick[i]) * context->dt_s;
+    double silent_s = (double)(tick - m->row[i].seen_tick) * context->dt_s;
     unsigned model = model_of(m, i);
     if (model == DEAD_RECKONING_STATIC)
         return true;
@@ -119,7 +119,7 @@ bool remote_motion_move(const struct step_context *context, uint32_t i)
         turn(context, i, spin_of(m, i));
     if (!world_holds(context->world, at.x, at.z))
         return false;
-    if (m->order_arg[i] >> REMOTE_FLAGS_SHIFT & REMOTE_FLAG_CLAMPED)
+    if (m->row[i].order_arg >> REMOTE_FLAGS_SHIFT & REMOTE_FLAG_CLAMPED)
         (void)ground_clamp(&context->world->terrain, context->craters, REMOTE_CLAMP_M, &at);
     entities_set_position(m, i, at);
     return true;

@@ -1,6 +1,6 @@
 /* Motion of remote entities: dead reckoning from what their owner told last. The collider corrects
  * errors of place and attitude when the frame ends (collider/remote_rows.h), as a correction is no
- * motion. world/entity/remote.h has the columns.
+ * motion. world/entity/remote.h has the fields.
  *
  * Every model has a constant state in axes that turn evenly or not at all. So a frame leads the row
  * to a state of the same model, and n frames give what the formula gives after their time. */

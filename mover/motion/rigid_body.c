@@ -15,9 +15,9 @@ struct rigid_body rigid_body_take(const struct step_context *context, uint32_t i
 {
     const struct entities *m = context->m;
     struct rigid_body body = {
-        .inertia = mass_properties_of(&context->world->kinds[m->kind[i]]),
-        .turn = rotation_of(m->heading[i], m->pitch[i], m->roll[i]),
-        .spin = {m->spin_x[i], m->spin_y[i], m->spin_z[i]},
+        .inertia = mass_properties_of(&context->world->kinds[m->row[i].kind]),
+        .turn = rotation_of(m->row[i].heading, m->row[i].pitch, m->row[i].roll),
+        .spin = {m->row[i].spin_x, m->row[i].spin_y, m->row[i].spin_z},
     };
     struct vec3 arm = arm_of(&body);
     body.centre = vec3_add(entities_position(m, i), arm);
@@ -43,10 +43,10 @@ void rigid_body_put(const struct step_context *context, uint32_t i, const struct
     stop_at_edge(context->world, &at.z, &velocity.z);
     entities_set_position(m, i, at);
     entities_set_velocity(m, i, velocity);
-    rotation_angles(body->turn, &m->heading[i], &m->pitch[i], &m->roll[i]);
-    m->spin_x[i] = body->spin.x;
-    m->spin_y[i] = body->spin.y;
-    m->spin_z[i] = body->spin.z;
+    rotation_angles(body->turn, &m->row[i].heading, &m->row[i].pitch, &m->row[i].roll);
+    m->row[i].spin_x = body->spin.x;
+    m->row[i].spin_y = body->spin.y;
+    m->row[i].spin_z = body->spin.z;
 }
 
 /* Returns the kinetic energy of the rotation [J]. */

@@ -90,7 +90,7 @@ static double friction_of(const struct kind *kind, const struct grounding *groun
 static void scrape(const struct step_context *context, uint32_t i, struct course *course,
                    const struct grounding *grounding)
 {
-    const struct kind *kind = &context->world->kinds[context->m->kind[i]];
+    const struct kind *kind = &context->world->kinds[context->m->row[i].kind];
     double step = friction_of(kind, grounding, course->forward >= 0.0) * context->dt_s;
     double before = course->forward * course->forward + course->rightward * course->rightward;
     course->forward = kinematics_approach(course->forward, 0.0, step);
@@ -100,20 +100,20 @@ static void scrape(const struct step_context *context, uint32_t i, struct course
         kinematics_approach(course->rightward, 0.0, SHORE_DRAG * GRAVITY_MPS2 * context->dt_s);
     double after = course->forward * course->forward + course->rightward * course->rightward;
     if (before > HARMLESS_MPS * HARMLESS_MPS)
-        context->m->harm_j[i] += 0.5 * SHORE_HARM * kind->mass_kg * (before - after);
+        context->m->row[i].harm_j += 0.5 * SHORE_HARM * kind->mass_kg * (before - after);
 }
 
-/* Notes whether the shore holds the ship. Returns true if a column beside its motion has changed.
+/* Notes whether the shore holds the ship. Returns true if a field beside its motion has changed.
  */
 static bool set_aground(const struct step_context *context, uint32_t i, bool aground)
 {
     struct entities *m = context->m;
-    bool was = (m->flags[i] & ENTITY_FLAG_AGROUND) != 0;
+    bool was = (m->row[i].flags & ENTITY_FLAG_AGROUND) != 0;
     if (aground && !was) {
-        m->flags[i] |= ENTITY_FLAG_AGROUND;
-        m->trigger[i] = TRIGGER_AGROUND;
+        m->row[i].flags |= ENTITY_FLAG_AGROUND;
+        m->row[i].trigger = TRIGGER_AGROUND;
     } else if (!aground && was) {
-        m->flags[i] &= (uint8_t)~ENTITY_FLAG_AGROUND;
+        m->row[i].flags &= (uint8_t)~ENTITY_FLAG_AGROUND;
     }
     return aground || was;
 }
@@ -123,18 +123,18 @@ static struct ship_moved advance(const struct step_context *context, uint32_t i,
                                  struct course *course)
 {
     struct entities *m = context->m;
-    const struct kind *kind = &context->world->kinds[m->kind[i]];
+    const struct kind *kind = &context->world->kinds[m->row[i].kind];
     struct grounding grounding = find_grounding(context, kind, course, entities_position(m, i));
     bool aground = grounding.bow_m + grounding.stern_m > 0.0;
     if (aground || grounding.bow_out || grounding.stern_out)
         scrape(context, i, course, &grounding);
-    m->vx[i] = course->forward * course->sine + course->rightward * course->cosine;
-    m->vz[i] = -course->forward * course->cosine + course->rightward * course->sine;
-    kinematics_advance(context, &m->x[i], &m->vx[i]);
-    kinematics_advance(context, &m->z[i], &m->vz[i]);
+    m->row[i].vx = course->forward * course->sine + course->rightward * course->cosine;
+    m->row[i].vz = -course->forward * course->cosine + course->rightward * course->sine;
+    kinematics_advance(context, &m->row[i].x, &m->row[i].vx);
+    kinematics_advance(context, &m->row[i].z, &m->row[i].vz);
     /* a post in water has the height of its surface */
-    m->y[i] = kinematics_ground(context, m->x[i], m->z[i]);
-    m->vy[i] = 0.0;
+    m->row[i].y = kinematics_ground(context, m->row[i].x, m->row[i].z);
+    m->row[i].vy = 0.0;
     bool ahead = course->forward >= 0.0;
     return (struct ship_moved){
         .blocked = ahead ? grounding.bow_m > 0.0 || grounding.bow_out
@@ -173,16 +173,16 @@ static double steer(const struct step_context *context, uint32_t i,
                     const struct desired_motion *desired, struct course *course)
 {
     struct entities *m = context->m;
-    const struct kind *kind = &context->world->kinds[m->kind[i]];
+    const struct kind *kind = &context->world->kinds[m->row[i].kind];
     double effect = rudder_effect(kind, course->forward);
-    double wanted = helm(kind, desired, m->heading[i], effect);
+    double wanted = helm(kind, desired, m->row[i].heading, effect);
     double rudder =
-        kinematics_approach(rudder_of(m->roll[i], effect), wanted, context->dt_s / RUDDER_S);
-    m->roll[i] = -rudder * HEEL_RAD * effect * effect;
-    if (rudder != 0.0 && !(m->flags[i] & ENTITY_FLAG_AGROUND)) {
+        kinematics_approach(rudder_of(m->row[i].roll, effect), wanted, context->dt_s / RUDDER_S);
+    m->row[i].roll = -rudder * HEEL_RAD * effect * effect;
+    if (rudder != 0.0 && !(m->row[i].flags & ENTITY_FLAG_AGROUND)) {
         double turned = rudder * effect * kind->turn_rate_rps * context->dt_s;
-        m->heading[i] = maths_wrap_turn(m->heading[i] + turned);
-        maths_sincos(m->heading[i], &course->sine, &course->cosine);
+        m->row[i].heading = maths_wrap_turn(m->row[i].heading + turned);
+        maths_sincos(m->row[i].heading, &course->sine, &course->cosine);
     }
     return rudder;
 }
@@ -213,7 +213,7 @@ static double screws(const struct kind *kind, const struct desired_motion *desir
 static void sail(const struct step_context *context, uint32_t i,
                  const struct desired_motion *desired, struct course *course)
 {
-    const struct kind *kind = &context->world->kinds[context->m->kind[i]];
+    const struct kind *kind = &context->world->kinds[context->m->row[i].kind];
     double full = kind->max_speed_mps;
     double rudder = steer(context, i, desired, course);
     double drag = drag_of(kind, course->forward, rudder);
@@ -229,7 +229,7 @@ static void sail(const struct step_context *context, uint32_t i,
 static struct course course_of(const struct step_context *context, uint32_t i)
 {
     struct course course;
-    maths_sincos(context->m->heading[i], &course.sine, &course.cosine);
+    maths_sincos(context->m->row[i].heading, &course.sine, &course.cosine);
     kinematics_along(context->m, i, course.sine, course.cosine, &course.forward, &course.rightward);
     return course;
 }
@@ -239,7 +239,7 @@ struct ship_moved ship_move(const struct step_context *context, uint32_t i,
 {
     struct course course = course_of(context, i);
     sail(context, i, desired, &course);
-    context->m->pitch[i] = 0.0;
+    context->m->row[i].pitch = 0.0;
     return advance(context, i, &course);
 }
 
@@ -260,22 +260,23 @@ struct ship_row {
 
 static struct ship_row row_of(const struct entities *m, uint32_t i)
 {
-    return (struct ship_row){m->x[i],      m->y[i],       m->z[i],      m->vx[i],   m->vy[i],
-                             m->vz[i],     m->heading[i], m->pitch[i],  m->roll[i], m->fuel_l[i],
-                             m->harm_j[i], m->flags[i],   m->trigger[i]};
+    return (struct ship_row){m->row[i].x,      m->row[i].y,      m->row[i].z,       m->row[i].vx,
+                             m->row[i].vy,     m->row[i].vz,     m->row[i].heading, m->row[i].pitch,
+                             m->row[i].roll,   m->row[i].fuel_l, m->row[i].harm_j,  m->row[i].flags,
+                             m->row[i].trigger};
 }
 
 static void give_back(struct entities *m, uint32_t i, const struct ship_row *row)
 {
     entities_set_position(m, i, (struct vec3){row->x, row->y, row->z});
     entities_set_velocity(m, i, (struct vec3){row->vx, row->vy, row->vz});
-    m->heading[i] = row->heading;
-    m->pitch[i] = row->pitch;
-    m->roll[i] = row->roll;
-    m->fuel_l[i] = row->fuel_l;
-    m->harm_j[i] = row->harm_j;
-    m->flags[i] = row->flags;
-    m->trigger[i] = row->trigger;
+    m->row[i].heading = row->heading;
+    m->row[i].pitch = row->pitch;
+    m->row[i].roll = row->roll;
+    m->row[i].fuel_l = row->fuel_l;
+    m->row[i].harm_j = row->harm_j;
+    m->row[i].flags = row->flags;
+    m->row[i].trigger = row->trigger;
 }
 
 /* Replaces the position by that at the end of an arc on which the speed changes evenly, and notes
@@ -284,11 +285,11 @@ static bool end_arc(const struct step_context *context, uint32_t i, const struct
                     const struct course *before, uint32_t frames)
 {
     struct entities *m = context->m;
-    const struct kind *kind = &context->world->kinds[m->kind[i]];
+    const struct kind *kind = &context->world->kinds[m->row[i].kind];
     const struct course after = course_of(context, i);
-    double turned = maths_wrap_half(m->heading[i] - row->heading);
+    double turned = maths_wrap_half(m->row[i].heading - row->heading);
     double gain_mps = after.forward - before->forward, time_s = context->dt_s * frames;
-    const struct vec3 from = {row->x, m->y[i], row->z};
+    const struct vec3 from = {row->x, m->row[i].y, row->z};
     entities_set_position(
         m, i, cruise_end(from, row->heading, turned, (before->forward + 0.5 * gain_mps) * time_s));
     kinematics_cruise(context, i,
@@ -296,8 +297,8 @@ static bool end_arc(const struct step_context *context, uint32_t i, const struct
                           .frames = frames, .turned_rad = turned, .gain_mps2 = gain_mps / time_s});
     struct grounding end = find_grounding(context, kind, &after, entities_position(m, i));
     return fabs(turned) <= STRETCH_TURN_RAD && fabs(gain_mps) <= STRETCH_GAIN_MPS &&
-           fabs(m->roll[i] - row->roll) <= STRETCH_HEEL_RAD &&
-           fabs(m->y[i] - row->y) <= STRETCH_RISE_M &&
+           fabs(m->row[i].roll - row->roll) <= STRETCH_HEEL_RAD &&
+           fabs(m->row[i].y - row->y) <= STRETCH_RISE_M &&
            fabs(before->rightward) <= STRETCH_SLIP_MPS && !end.bow_out && !end.stern_out &&
            end.bow_m + end.stern_m <= 0.0;
 }
@@ -314,21 +315,21 @@ bool ship_stretch(const struct step_context *context, uint32_t i,
     if (!moved.blocked && !moved.touched && end_arc(context, i, &row, &before, frames))
         return true;
     give_back(m, i, &row);
-    m->cruise_tick[i] = 0;
+    m->row[i].cruise_tick = 0;
     return false;
 }
 
 bool ship_hold(const struct step_context *context, uint32_t i)
 {
     struct course course = course_of(context, i);
-    const struct kind *kind = &context->world->kinds[context->m->kind[i]];
+    const struct kind *kind = &context->world->kinds[context->m->row[i].kind];
     struct grounding grounding =
         find_grounding(context, kind, &course, entities_position(context->m, i));
     bool aground = grounding.bow_m + grounding.stern_m > 0.0;
     if (aground) {
         scrape(context, i, &course, &grounding);
-        context->m->vx[i] = course.forward * course.sine + course.rightward * course.cosine;
-        context->m->vz[i] = -course.forward * course.cosine + course.rightward * course.sine;
+        context->m->row[i].vx = course.forward * course.sine + course.rightward * course.cosine;
+        context->m->row[i].vz = -course.forward * course.cosine + course.rightward * course.sine;
     }
     return set_aground(context, i, aground);
 }
@@ -339,10 +340,10 @@ void ship_tell_aground(struct serial_context *context, uint32_t i)
     const struct entities *m = step->m;
     struct vec3 before = entities_velocity(&step->committed->entities, i);
     double sine, cosine, speed = vec3_length(before);
-    maths_sincos(m->heading[i], &sine, &cosine);
+    maths_sincos(m->row[i].heading, &sine, &cosine);
     double end = before.x * sine - before.z * cosine < 0.0 ? -0.5 : 0.5;
-    end *= step->world->kinds[m->kind[i]].length_m;
-    struct vec3 at = {m->x[i] + end * sine, m->y[i], m->z[i] - end * cosine};
+    end *= step->world->kinds[m->row[i].kind].length_m;
+    struct vec3 at = {m->row[i].x + end * sine, m->row[i].y, m->row[i].z - end * cosine};
     struct vec3 ahead = speed > 0.0 ? vec3_scale(before, 1.0 / speed) : (struct vec3){0};
     (void)ground_strike_tell(context, i, at, ahead, RESPONSE_STOP);
 }

@@ -3,7 +3,7 @@
  * The rudder gives a circle, so the rate of turn grows with the speed: the kind's turn rate is that
  * at top speed. Drag grows with the square of the speed and with the rudder. A ship whose engines
  * stop runs on for a long way. It heels out of a turn. The heel shows where the rudder is, so the
- * rudder needs no column of its own.
+ * rudder needs no field of its own.
  *
  * A ship is aground while an end of its hull is on land: ENTITY_FLAG_AGROUND. The friction of the
  * shore stops it while it slides up, and adds the energy that it takes to harm_j, of which the

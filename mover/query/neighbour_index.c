@@ -131,19 +131,20 @@ static bool row_rests(const struct neighbour_index *index, uint32_t i)
 static inline uint32_t band_of(const struct neighbour_index *index, const struct entities *w,
                                uint32_t i)
 {
-    if (w->state[i] == ENTITY_FREE || w->behaviour[i] == BEHAVIOUR_FLIGHT)
+    if (w->row[i].state == ENTITY_FREE || w->row[i].behaviour == BEHAVIOUR_FLIGHT)
         return index->side;
     /* The position rounded as in the entry, so that the box of a query holds it. */
-    return (uint32_t)cell_axis(index, (double)(float)w->z[i]);
+    return (uint32_t)cell_axis(index, (double)(float)w->row[i].z);
 }
 
 static inline uint16_t slot_of(const struct neighbour_index *index, const struct entities *w,
                                uint32_t i)
 {
-    uint32_t layer = w->force[i] < FORCE_COUNT ? w->force[i] : FORCE_NEUTRAL;
-    if (w->state[i] == ENTITY_WRECK)
+    uint32_t layer = w->row[i].force < FORCE_COUNT ? w->row[i].force : FORCE_NEUTRAL;
+    if (w->row[i].state == ENTITY_WRECK)
         layer = NEIGHBOUR_INDEX_WRECKS;
-    return (uint16_t)((uint32_t)cell_axis(index, (double)(float)w->x[i]) * NEIGHBOUR_INDEX_LAYERS +
+    return (uint16_t)((uint32_t)cell_axis(index, (double)(float)w->row[i].x) *
+                          NEIGHBOUR_INDEX_LAYERS +
                       layer);
 }
 
@@ -156,20 +157,22 @@ static uint32_t key_of(const struct neighbour_index *index, const struct entitie
 
 static inline struct neighbour_index_entry entry_of(const struct entities *w, uint32_t i)
 {
-    return (struct neighbour_index_entry){.x = (float)w->x[i],
-                                          .z = (float)w->z[i],
-                                          .y = (float)w->y[i],
-                                          .vx = (float)w->vx[i],
-                                          .vz = (float)w->vz[i],
+    return (struct neighbour_index_entry){.x = (float)w->row[i].x,
+                                          .z = (float)w->row[i].z,
+                                          .y = (float)w->row[i].y,
+                                          .vx = (float)w->row[i].vx,
+                                          .vz = (float)w->row[i].vz,
                                           .row = i & (CAPACITY_MAX - 1u),
-                                          .kind = w->kind[i] & NEIGHBOUR_INDEX_KINDS};
+                                          .kind = w->row[i].kind & NEIGHBOUR_INDEX_KINDS};
 }
 
 /* The id of the row's agent if it decides in its turn, else 0. */
 static inline uint32_t agent_of(const struct neighbour_index *index, uint32_t i)
 {
     const struct entities *w = index->committed;
-    return w->state[i] == ENTITY_ACTIVE && !row_rests(index, i) && !remote_is(w, i) ? w->id[i] : 0;
+    return w->row[i].state == ENTITY_ACTIVE && !row_rests(index, i) && !remote_is(w, i)
+               ? w->row[i].id
+               : 0;
 }
 
 static void note_agent(struct neighbour_index *index, uint32_t band)

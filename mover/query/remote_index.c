@@ -63,7 +63,7 @@ static void make(struct remote_index *index, const struct entities *e, uint32_t 
     index->count = 0;
     for (uint32_t row = used; row-- > 0;) {
         if (remote_is(e, row))
-            put(index, row, e->driver[row]);
+            put(index, row, e->row[row].driver);
     }
     index->made = true;
 }
@@ -76,7 +76,7 @@ uint32_t remote_index_find(struct remote_index *index, const struct entities *e,
     if (!index->made)
         make(index, e, used);
     uint32_t row = *bucket_of(index, remote);
-    while (row != SLOT_NONE && e->driver[row] != remote)
+    while (row != SLOT_NONE && e->row[row].driver != remote)
         row = index->next[row];
     return row;
 }

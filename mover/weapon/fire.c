@@ -35,7 +35,7 @@ double fire_normal(const struct serial_context *context, uint32_t entity,
 static double spread(const struct serial_context *context, uint32_t row,
                      enum random_purpose purpose)
 {
-    return fire_normal(context, context->moved->entities.id[row], purpose);
+    return fire_normal(context, context->moved->entities.row[row].id, purpose);
 }
 
 static struct vec3 dispersed(const struct serial_context *context, uint32_t row,
@@ -71,7 +71,7 @@ static uint32_t new_munition(struct serial_context *context, uint16_t kind, uint
 
 static bool can_fire(const struct entities *m, const struct kind *kind, uint32_t shooter)
 {
-    return m->rounds[shooter] > 0 && !disabled_gun(kind, m, shooter);
+    return m->row[shooter].rounds > 0 && !disabled_gun(kind, m, shooter);
 }
 
 /* Sends the munition on its path, and returns the event, to which the caller adds the parties. */
@@ -99,18 +99,18 @@ static void tell_shot(struct serial_context *context, struct event_fire *event, 
 {
     const struct entities *m = &context->moved->entities;
     const struct table_writer *writer = &context->writer;
-    const struct kind *kind = &context->step->world->kinds[m->kind[shooter]];
+    const struct kind *kind = &context->step->world->kinds[m->row[shooter].kind];
     event->shooter = serial_context_party(context, shooter);
     table_set_owner_slot(writer, row, shooter);
-    table_set_owner_id(writer, row, m->id[shooter]);
-    table_set_rounds(writer, shooter, m->rounds[shooter] - 1);
+    table_set_owner_id(writer, row, m->row[shooter].id);
+    table_set_rounds(writer, shooter, m->row[shooter].rounds - 1);
     table_set_reload_tick(
         writer, shooter,
         (uint32_t)(context->step->tick + (uint64_t)(kind->reload_s / context->step->dt_s)));
     if (target != SLOT_NONE) {
         event->target = serial_context_party(context, target);
-        table_set_target(writer, row, target, m->id[target]);
-        table_set_threat(writer, target, shooter, m->id[shooter]);
+        table_set_target(writer, row, target, m->row[target].id);
+        table_set_threat(writer, target, shooter, m->row[shooter].id);
     }
 }
 
@@ -161,9 +161,9 @@ bool fire_shell(struct serial_context *context, uint32_t shooter, const struct f
 {
     const struct entities *m = &context->moved->entities;
     const struct kind *kinds = context->step->world->kinds;
-    const struct kind *kind = &kinds[m->kind[shooter]], *round = &kinds[shell->munition];
+    const struct kind *kind = &kinds[m->row[shooter].kind], *round = &kinds[shell->munition];
     uint32_t row = can_fire(m, kind, shooter)
-                       ? new_munition(context, shell->munition, m->force[shooter])
+                       ? new_munition(context, shell->munition, m->row[shooter].force)
                        : SLOT_NONE;
     if (row == SLOT_NONE)
         return false;
@@ -230,9 +230,9 @@ static bool launch(struct serial_context *context, uint32_t shooter, uint32_t ta
 {
     const struct entities *m = &context->moved->entities;
     const struct world *world = context->step->world;
-    const struct kind *kind = &world->kinds[m->kind[shooter]];
+    const struct kind *kind = &world->kinds[m->row[shooter].kind];
     if (munition == KIND_NONE)
-        munition = target != SLOT_NONE ? kind_munition_at(kind, &world->kinds[m->kind[target]])
+        munition = target != SLOT_NONE ? kind_munition_at(kind, &world->kinds[m->row[target].kind])
                                        : kind->munition;
     if (munition == KIND_NONE || !can_fire(m, kind, shooter))
         return false;
@@ -241,7 +241,7 @@ static bool launch(struct serial_context *context, uint32_t shooter, uint32_t ta
         return fire_shell_at(context, shooter,
                              point ? *point : step_context_position(context->step, m, target),
                              munition, false, round->fuze);
-    uint32_t row = new_munition(context, munition, m->force[shooter]);
+    uint32_t row = new_munition(context, munition, m->row[shooter].force);
     if (row == SLOT_NONE)
         return false;
     struct vec3 position = turret_muzzle(context->step, m, shooter);
@@ -268,7 +268,7 @@ static uint16_t munition_of(const struct serial_context *context, uint32_t shoot
                             uint16_t munition)
 {
     const struct kind *kinds = context->step->world->kinds;
-    return munition == KIND_NONE ? kinds[context->moved->entities.kind[shooter]].munition
+    return munition == KIND_NONE ? kinds[context->moved->entities.row[shooter].kind].munition
                                  : munition;
 }
 
@@ -278,9 +278,10 @@ static bool release(struct serial_context *context, uint32_t shooter, uint32_t t
 {
     const struct entities *m = &context->moved->entities;
     const struct kind *kinds = context->step->world->kinds;
-    const struct kind *kind = &kinds[m->kind[shooter]], *round = &kinds[munition];
-    uint32_t row =
-        m->rounds[shooter] > 0 ? new_munition(context, munition, m->force[shooter]) : SLOT_NONE;
+    const struct kind *kind = &kinds[m->row[shooter].kind], *round = &kinds[munition];
+    uint32_t row = m->row[shooter].rounds > 0
+                       ? new_munition(context, munition, m->row[shooter].force)
+                       : SLOT_NONE;
     if (row == SLOT_NONE)
         return false;
     struct vec3 at = entities_position(m, shooter);
@@ -297,7 +298,7 @@ static bool releases(const struct serial_context *context, uint32_t shooter, uin
     const struct kind *kinds = context->step->world->kinds;
     munition = munition_of(context, shooter, munition);
     return munition != KIND_NONE && kinds[munition].delivery == DELIVERY_DROP &&
-           kinds[context->moved->entities.kind[shooter]].domain == DOMAIN_AIR;
+           kinds[context->moved->entities.row[shooter].kind].domain == DOMAIN_AIR;
 }
 
 bool fire_shoot(struct serial_context *context, uint32_t shooter, uint32_t target,

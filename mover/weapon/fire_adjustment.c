@@ -14,7 +14,7 @@
 
 static double level_distance(const struct entities *m, uint32_t row, double x, double z)
 {
-    double dx = m->x[row] - x, dz = m->z[row] - z;
+    double dx = m->row[row].x - x, dz = m->row[row].z - z;
     return sqrt(dx * dx + dz * dz);
 }
 
@@ -28,9 +28,9 @@ static bool is_observed(const struct serial_context *context, const struct batte
     target.y += TARGET_M;
     uint32_t asked = 0;
     for (uint32_t row = 0; row < context->moved->head->used && asked < EYES_MOST; row++) {
-        const struct kind *kind = &kinds[m->kind[row]];
-        if (m->state[row] != ENTITY_ACTIVE || m->behaviour[row] == BEHAVIOUR_FLIGHT ||
-            m->force[row] != battery->force ||
+        const struct kind *kind = &kinds[m->row[row].kind];
+        if (m->row[row].state != ENTITY_ACTIVE || m->row[row].behaviour == BEHAVIOUR_FLIGHT ||
+            m->row[row].force != battery->force ||
             level_distance(m, row, battery->x, battery->z) > kind->sight_m)
             continue;
         struct vec3 eye = step_context_position(context->step, m, row);

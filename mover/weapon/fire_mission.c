@@ -33,11 +33,11 @@ static bool is_howitzer(const struct serial_context *context, uint32_t row)
 {
     const struct entities *m = &context->moved->entities;
     const struct kind *kinds = context->step->world->kinds;
-    if (m->state[row] != ENTITY_ACTIVE || m->behaviour[row] == BEHAVIOUR_FLIGHT)
+    if (m->row[row].state != ENTITY_ACTIVE || m->row[row].behaviour == BEHAVIOUR_FLIGHT)
         return false;
-    uint16_t munition = kinds[m->kind[row]].munition;
-    return !disabled_gun(&kinds[m->kind[row]], m, row) && munition != KIND_NONE &&
-           kinds[munition].delivery == DELIVERY_ARC && m->rounds[row] > 0;
+    uint16_t munition = kinds[m->row[row].kind].munition;
+    return !disabled_gun(&kinds[m->row[row].kind], m, row) && munition != KIND_NONE &&
+           kinds[munition].delivery == DELIVERY_ARC && m->row[row].rounds > 0;
 }
 
 /* --- orders ------------------------------------------------------------------------------------*/
@@ -64,14 +64,14 @@ static struct battery *entry_for(struct state_head *head, uint32_t id)
 
 static double distance(const struct entities *m, uint32_t row, double x, double z)
 {
-    double dx = m->x[row] - x, dz = m->z[row] - z;
+    double dx = m->row[row].x - x, dz = m->row[row].z - z;
     return sqrt(dx * dx + dz * dz);
 }
 
 static void add_gun(struct battery *battery, const struct entities *m, uint32_t row)
 {
     battery->gun_slot[battery->guns] = row;
-    battery->gun_id[battery->guns++] = m->id[row];
+    battery->gun_id[battery->guns++] = m->row[row].id;
 }
 
 /* The given gun comes first: it adjusts. */
@@ -82,8 +82,8 @@ static void gather_guns(const struct serial_context *context, struct battery *ba
     add_gun(battery, m, first);
     for (uint32_t row = 0; row < context->moved->head->used; row++) {
         if (battery->guns < BATTERY_GUNS_MAX && row != first && is_howitzer(context, row) &&
-            m->force[row] == m->force[first] && m->kind[row] == m->kind[first] &&
-            distance(m, row, m->x[first], m->z[first]) <= FIRE_MISSION_BATTERY_M)
+            m->row[row].force == m->row[first].force && m->row[row].kind == m->row[first].kind &&
+            distance(m, row, m->row[first].x, m->row[first].z) <= FIRE_MISSION_BATTERY_M)
             add_gun(battery, m, row);
     }
 }
@@ -112,11 +112,11 @@ bool fire_mission_begin(struct serial_context *context, const struct fire_missio
     if (order->rounds == 0 ||
         (afar ? order->munition == KIND_NONE : !is_howitzer(context, order->gun)))
         return false;
-    struct battery *entry = entry_for(head, afar ? 0 : m->id[order->gun]);
+    struct battery *entry = entry_for(head, afar ? 0 : m->row[order->gun].id);
     if (!entry)
         return false;
     uint16_t munition =
-        order->munition == KIND_NONE ? kinds[m->kind[order->gun]].munition : order->munition;
+        order->munition == KIND_NONE ? kinds[m->row[order->gun].kind].munition : order->munition;
     uint32_t tick = (uint32_t)context->step->tick;
     *entry = (struct battery){
         .x = order->x,
@@ -132,7 +132,7 @@ bool fire_mission_begin(struct serial_context *context, const struct fire_missio
         .munition = munition,
         .phase = order->adjusted ? BATTERY_ADJUSTS : BATTERY_FIRES,
         .fuze = order->fuze == FUZE_COUNT ? kinds[munition].fuze : order->fuze,
-        .force = afar ? order->force : m->force[order->gun],
+        .force = afar ? order->force : m->row[order->gun].force,
         .high = order->high,
     };
     if (!afar)
@@ -153,15 +153,15 @@ static bool has_mission(const struct state_head *head, uint32_t id)
 bool fire_mission_can(const struct serial_context *context, uint32_t row, double x, double z)
 {
     const struct entities *m = &context->moved->entities;
-    return is_howitzer(context, row) && !has_mission(context->moved->head, m->id[row]) &&
-           distance(m, row, x, z) <= context->step->world->kinds[m->kind[row]].range_m;
+    return is_howitzer(context, row) && !has_mission(context->moved->head, m->row[row].id) &&
+           distance(m, row, x, z) <= context->step->world->kinds[m->row[row].kind].range_m;
 }
 
 uint32_t fire_mission_gun(const struct serial_context *context, uint8_t force, double x, double z)
 {
     const struct entities *m = &context->moved->entities;
     for (uint32_t row = 0; row < context->moved->head->used; row++) {
-        if (m->force[row] == force && fire_mission_can(context, row, x, z))
+        if (m->row[row].force == force && fire_mission_can(context, row, x, z))
             return row;
     }
     return SLOT_NONE;
@@ -244,7 +244,7 @@ static bool fire_gun(struct serial_context *context, struct battery *battery, ui
 {
     const struct entities *m = &context->moved->entities;
     uint32_t row = battery->gun_slot[g];
-    if (context->step->tick < m->reload_tick[row] ||
+    if (context->step->tick < m->row[row].reload_tick ||
         vec3_length(entities_velocity(m, row)) > STILL_MPS ||
         (solution->flight_s == 0.0 && !find_data(context, battery, solution)))
         return false;
@@ -307,7 +307,7 @@ static void cool(const struct serial_context *context, struct battery *battery)
 {
     const struct kind *kinds = context->step->world->kinds;
     const struct entities *m = &context->moved->entities;
-    double reload = is_afar(battery) ? 15.0 : kinds[m->kind[battery->gun_slot[0]]].reload_s;
+    double reload = is_afar(battery) ? 15.0 : kinds[m->row[battery->gun_slot[0]].kind].reload_s;
     double burst_s = (double)(FASTEST_ROUNDS - 1) * maths_max(SUSTAINED_S - reload, 0.0);
     uint32_t start = battery->volley_tick, bears = ticks(context, burst_s);
     if (battery->cold_tick < start)

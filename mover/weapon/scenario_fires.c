@@ -43,7 +43,7 @@ static void fire_as_ordered(struct serial_context *context, const struct fire_or
 {
     const struct kind *kinds = context->step->world->kinds;
     uint32_t shooter = order->shooter_slot;
-    uint16_t own = kinds[context->moved->entities.kind[shooter]].munition;
+    uint16_t own = kinds[context->moved->entities.row[shooter].kind].munition;
     uint16_t munition = order->kind == KIND_NONE ? own : order->kind;
     if (order->target_slot != SLOT_NONE) {
         fire_shoot(context, shooter, order->target_slot, order->kind);
@@ -68,7 +68,7 @@ void scenario_fires_run(struct serial_context *context)
         uint32_t shooter = order->shooter_slot, target = order->target_slot;
         /* An initial slot still holds its first entity if the id is slot + 1. */
         if (shooter != SLOT_NONE &&
-            (!entities_alive(m, shooter, shooter + 1) || m->state[shooter] != ENTITY_ACTIVE))
+            (!entities_alive(m, shooter, shooter + 1) || m->row[shooter].state != ENTITY_ACTIVE))
             continue;
         if (target != SLOT_NONE && !entities_alive(m, target, target + 1))
             continue;

@@ -31,7 +31,7 @@ static uint32_t free_row(struct serial_context *context)
     for (uint32_t n = 0; n < roof; n++, row = row + 1 < roof ? row + 1 : 0) {
         if (row >= head->used) /* rows are used for the first time in their order */
             return head->used;
-        if (m->state[row] == ENTITY_FREE)
+        if (m->row[row].state == ENTITY_FREE)
             return row;
     }
     return SLOT_NONE;
@@ -42,7 +42,7 @@ void spawn_fall_back(struct serial_context *context)
     struct state_head *head = context->moved->head;
     const struct entities *m = &context->moved->entities;
     uint32_t roof = spawn_roof(head, m->capacity), used = head->used;
-    while (used > roof && m->state[used - 1] == ENTITY_FREE)
+    while (used > roof && m->row[used - 1].state == ENTITY_FREE)
         used--;
     head->used = used;
 }
@@ -60,17 +60,17 @@ uint32_t spawn_entity(struct serial_context *context, uint16_t kind_index, uint8
     head->used = row < head->used ? head->used : row + 1;
     head->alloc_next = (row + 1) % m->capacity;
     table_clear_row(&context->writer, row);
-    m->id[row] = head->next_id++;
-    m->kind[row] = kind_index;
-    m->state[row] = ENTITY_ACTIVE;
-    m->force[row] = force;
-    m->born_tick[row] = (uint32_t)context->step->tick;
-    m->fuel_l[row] = kind->fuel_l;
-    m->rounds[row] = kind->rounds;
+    m->row[row].id = head->next_id++;
+    m->row[row].kind = kind_index;
+    m->row[row].state = ENTITY_ACTIVE;
+    m->row[row].force = force;
+    m->row[row].born_tick = (uint32_t)context->step->tick;
+    m->row[row].fuel_l = kind->fuel_l;
+    m->row[row].rounds = kind->rounds;
     if (kind->domain == DOMAIN_MUNITION) {
         head->munitions++;
-        m->behaviour[row] = m->order[row] = BEHAVIOUR_FLIGHT;
-        m->until_tick[row] =
+        m->row[row].behaviour = m->row[row].order = BEHAVIOUR_FLIGHT;
+        m->row[row].until_tick =
             (uint32_t)(context->step->tick + (uint64_t)(kind->life_s / context->step->dt_s));
     } else {
         head->vehicles++;
@@ -82,7 +82,7 @@ void spawn_remove(struct serial_context *context, uint32_t row)
 {
     struct state_head *head = context->moved->head;
     const struct entities *m = &context->moved->entities;
-    if (context->step->world->kinds[m->kind[row]].domain == DOMAIN_MUNITION)
+    if (context->step->world->kinds[m->row[row].kind].domain == DOMAIN_MUNITION)
         head->munitions--;
     else
         head->vehicles--;

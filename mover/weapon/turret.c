@@ -18,7 +18,7 @@
 
 struct vec3 turret_muzzle(const struct step_context *context, const struct entities *e, uint32_t i)
 {
-    const struct kind *kind = &context->world->kinds[e->kind[i]];
+    const struct kind *kind = &context->world->kinds[e->row[i].kind];
     struct vec3 position = entities_position(e, i);
     position.y += kind->domain == DOMAIN_AIR ? 0.0 : MUZZLE_SHARE * kind->height_m;
     return position;
@@ -63,7 +63,7 @@ struct vec3 turret_lead(const struct step_context *context, struct vec3 muzzle, 
                         const struct entities *e, uint32_t target)
 {
     struct vec3 to = vec3_sub(step_context_position(context, e, target), muzzle);
-    to.y += kinematics_aim_height(context, e->kind[target]);
+    to.y += kinematics_aim_height(context, e->row[target].kind);
     if (flies_on_arc(context, munition))
         return arc_to(context, muzzle, munition, vec3_add(muzzle, to));
     return lead_on(&context->firing_tables[munition], context->wind, muzzle.y, to,
@@ -81,15 +81,15 @@ struct vec3 turret_lead_point(const struct step_context *context, struct vec3 mu
 
 static struct mat3 pose_matrix(const struct entities *e, uint32_t i)
 {
-    return rotation_matrix(rotation_of(e->heading[i], e->pitch[i], e->roll[i]));
+    return rotation_matrix(rotation_of(e->row[i].heading, e->row[i].pitch, e->row[i].roll));
 }
 
 /* The direction of the gun for this rotation of the body. */
 static struct vec3 barrel_of(const struct entities *e, uint32_t i, const struct mat3 *body)
 {
     double sine, cosine, sine_up, cosine_up;
-    maths_sincos((double)e->turret[i], &sine, &cosine);
-    maths_sincos((double)e->gun[i], &sine_up, &cosine_up);
+    maths_sincos((double)e->row[i].turret, &sine, &cosine);
+    maths_sincos((double)e->row[i].gun, &sine_up, &cosine_up);
     return rotation_apply(body, (struct vec3){cosine * cosine_up, sine_up, sine * cosine_up});
 }
 
@@ -105,25 +105,28 @@ static void lay(const struct step_context *context, uint32_t i, const struct kin
 {
     struct entities *m = context->m;
     double most = kind->turret_rate_rps * context->dt_s;
-    double off = maths_wrap_half(turret - (double)m->turret[i]);
+    double off = maths_wrap_half(turret - (double)m->row[i].turret);
     gun = maths_clamp(gun, kind->gun_low_rad, kind->gun_high_rad);
-    m->turret[i] = (float)maths_wrap_half((double)m->turret[i] + maths_clamp(off, -most, most));
-    m->gun[i] =
-        (float)kinematics_approach((double)m->gun[i], gun, kind->gun_rate_rps * context->dt_s);
+    m->row[i].turret =
+        (float)maths_wrap_half((double)m->row[i].turret + maths_clamp(off, -most, most));
+    m->row[i].gun =
+        (float)kinematics_approach((double)m->row[i].gun, gun, kind->gun_rate_rps * context->dt_s);
 }
 
 static bool has_target(const struct step_context *context, uint32_t i)
 {
     const struct entities *m = context->m, *w = &context->committed->entities;
-    return m->target_id[i] != 0 && entities_alive(w, m->target_slot[i], m->target_id[i]);
+    return m->row[i].target_id != 0 &&
+           entities_alive(w, m->row[i].target_slot, m->row[i].target_id);
 }
 
 /* The direction for its goal, a point on the ground. */
 static struct vec3 lead_goal(const struct step_context *context, uint32_t i, uint16_t munition)
 {
     const struct entities *m = context->m;
-    struct vec3 goal = {m->goal_x[i], kinematics_ground(context, m->goal_x[i], m->goal_z[i]),
-                        m->goal_z[i]};
+    struct vec3 goal = {m->row[i].goal_x,
+                        kinematics_ground(context, m->row[i].goal_x, m->row[i].goal_z),
+                        m->row[i].goal_z};
     return turret_lead_point(context, turret_muzzle(context, m, i), munition, goal);
 }
 
@@ -133,12 +136,12 @@ static void solve(const struct step_context *context, uint32_t i, const struct k
                   struct turret_solution *solution, double *turret, double *gun)
 {
     const struct entities *m = context->m, *w = &context->committed->entities;
-    const struct kind *target = &context->world->kinds[w->kind[m->target_slot[i]]];
+    const struct kind *target = &context->world->kinds[w->row[m->row[i].target_slot].kind];
     solution->body = pose_matrix(m, i);
-    solution->lead = m->trigger[i] & TRIGGER_FIRE_AT
+    solution->lead = m->row[i].trigger & TRIGGER_FIRE_AT
                          ? lead_goal(context, i, kind->munition)
                          : turret_lead(context, turret_muzzle(context, m, i),
-                                       kind_munition_at(kind, target), w, m->target_slot[i]);
+                                       kind_munition_at(kind, target), w, m->row[i].target_slot);
     solution->found = true;
     struct vec3 lead = rotation_back(&solution->body, solution->lead);
     double level = sqrt(lead.x * lead.x + lead.z * lead.z);
@@ -146,13 +149,14 @@ static void solve(const struct step_context *context, uint32_t i, const struct k
     *gun = maths_atan2(lead.y, level);
 }
 
-/* Turns turret and gun by the columns traverse and elevate. */
+/* Turns turret and gun by the fields traverse and elevate. */
 static void lay_by_rates(const struct step_context *context, uint32_t i, const struct kind *kind)
 {
     const struct entities *m = context->m;
     lay(context, i, kind,
-        (double)m->turret[i] + (double)m->traverse[i] * kind->turret_rate_rps * context->dt_s,
-        (double)m->gun[i] + (double)m->elevate[i] * kind->gun_rate_rps * context->dt_s);
+        (double)m->row[i].turret +
+            (double)m->row[i].traverse * kind->turret_rate_rps * context->dt_s,
+        (double)m->row[i].gun + (double)m->row[i].elevate * kind->gun_rate_rps * context->dt_s);
 }
 
 static float share_of(double off, double most)
@@ -169,9 +173,9 @@ static void set_rates(const struct step_context *context, uint32_t i, const stru
     struct entities *m = context->m;
     double time_s = (double)context->think_frames * context->dt_s;
     gun = maths_clamp(gun, kind->gun_low_rad, kind->gun_high_rad);
-    m->traverse[i] =
-        share_of(maths_wrap_half(turret - (double)m->turret[i]), kind->turret_rate_rps * time_s);
-    m->elevate[i] = share_of(gun - (double)m->gun[i], kind->gun_rate_rps * time_s);
+    m->row[i].traverse = share_of(maths_wrap_half(turret - (double)m->row[i].turret),
+                                  kind->turret_rate_rps * time_s);
+    m->row[i].elevate = share_of(gun - (double)m->row[i].gun, kind->gun_rate_rps * time_s);
 }
 
 /* An agent's gun. It is laid exactly when it is about to fire or returns to rest, else by the rates
@@ -181,20 +185,20 @@ static void by_agent(const struct step_context *context, uint32_t i, const struc
 {
     struct entities *m = context->m;
     double turret, gun;
-    if (m->trigger[i] & TRIGGER_FIRE_AT) {
+    if (m->row[i].trigger & TRIGGER_FIRE_AT) {
         solve(context, i, kind, solution, &turret, &gun);
         lay(context, i, kind, turret, gun);
         return;
     }
-    if (m->target_id[i] == 0) {
-        m->traverse[i] = m->elevate[i] = 0.0f;
+    if (m->row[i].target_id == 0) {
+        m->row[i].traverse = m->row[i].elevate = 0.0f;
         if (flies_on_arc(context, kind->munition))
             return; /* a howitzer stays as it was laid */
-        if (m->turret[i] != 0.0f || m->gun[i] != 0.0f)
+        if (m->row[i].turret != 0.0f || m->row[i].gun != 0.0f)
             lay(context, i, kind, 0.0, 0.0);
         return;
     }
-    bool fires = (m->trigger[i] & TRIGGER_FIRE) != 0;
+    bool fires = (m->row[i].trigger & TRIGGER_FIRE) != 0;
     if ((fires || step_context_thinks(context, i)) && has_target(context, i)) {
         solve(context, i, kind, solution, &turret, &gun);
         set_rates(context, i, kind, turret, gun);
@@ -203,22 +207,22 @@ static void by_agent(const struct step_context *context, uint32_t i, const struc
             return;
         }
     }
-    if (m->traverse[i] != 0.0f || m->elevate[i] != 0.0f)
+    if (m->row[i].traverse != 0.0f || m->row[i].elevate != 0.0f)
         lay_by_rates(context, i, kind);
 }
 
 void turret_turn(const struct step_context *context, uint32_t i, struct turret_solution *solution)
 {
     struct entities *m = context->m;
-    const struct kind *kind = &context->world->kinds[m->kind[i]];
+    const struct kind *kind = &context->world->kinds[m->row[i].kind];
     solution->found = false;
     if (kind->munition == KIND_NONE || disabled_gun(kind, m, i))
         return;
-    if (m->behaviour[i] != BEHAVIOUR_DRIVEN) {
+    if (m->row[i].behaviour != BEHAVIOUR_DRIVEN) {
         by_agent(context, i, kind, solution);
-    } else if (m->traverse[i] != 0.0f ||
-               m->elevate[i] != 0.0f) { /* a driver who aims by hand cancels the target */
-        m->target_slot[i] = m->target_id[i] = 0;
+    } else if (m->row[i].traverse != 0.0f ||
+               m->row[i].elevate != 0.0f) { /* a driver who aims by hand cancels the target */
+        m->row[i].target_slot = m->row[i].target_id = 0;
         lay_by_rates(context, i, kind);
     } else if (has_target(context, i)) {
         double turret, gun;
@@ -236,7 +240,7 @@ bool turret_lay(const struct step_context *context, const struct table_writer *w
                 struct vec3 direction)
 {
     const struct entities *m = context->m;
-    const struct kind *kind = &context->world->kinds[m->kind[i]];
+    const struct kind *kind = &context->world->kinds[m->row[i].kind];
     if (disabled_gun(kind, m, i))
         return false;
     struct mat3 body = pose_matrix(m, i);
@@ -244,8 +248,8 @@ bool turret_lay(const struct step_context *context, const struct table_writer *w
     double turret = maths_atan2(own.z, own.x);
     double gun = maths_atan2(own.y, sqrt(own.x * own.x + own.z * own.z));
     lay(context, i, kind, turret, gun);
-    table_set_turret(writer, i, m->turret[i]);
-    table_set_gun(writer, i, m->gun[i]);
+    table_set_turret(writer, i, m->row[i].turret);
+    table_set_gun(writer, i, m->row[i].gun);
     return angle_between(barrel_of(m, i, &body), direction) <= LAID_RAD;
 }
 
@@ -258,9 +262,10 @@ static double laid_rad(const struct kind *kind)
 static bool bears(const struct step_context *context, const struct entities *rows, uint32_t i,
                   uint32_t target, struct vec3 barrel, const struct turret_solution *solution)
 {
-    const struct kind *kind = &context->world->kinds[rows->kind[i]];
+    const struct kind *kind = &context->world->kinds[rows->row[i].kind];
     const struct kind *munition = &context->world->kinds[kind->munition];
-    const struct kind *aimed_at = &context->world->kinds[context->committed->entities.kind[target]];
+    const struct kind *aimed_at =
+        &context->world->kinds[context->committed->entities.row[target].kind];
     struct vec3 muzzle = turret_muzzle(context, rows, i), to;
     double most = laid_rad(kind);
     if (munition->guidance == GUIDANCE_HOMING) {
@@ -287,19 +292,19 @@ static bool friend_ahead(const struct step_context *context, uint32_t i, uint32_
                          struct vec3 barrel)
 {
     const struct entities *m = context->m, *w = &context->committed->entities;
-    uint32_t layers = NEIGHBOUR_INDEX_LAYER(m->force[i]) | NEIGHBOUR_INDEX_LAYER(FORCE_NEUTRAL);
+    uint32_t layers = NEIGHBOUR_INDEX_LAYER(m->row[i].force) | NEIGHBOUR_INDEX_LAYER(FORCE_NEUTRAL);
     struct vec3 muzzle = turret_muzzle(context, m, i);
     double reach = maths_min(
         FRIEND_AHEAD_M,
         vec3_length(vec3_sub(step_context_position(context, w, target), entities_position(m, i))));
     struct neighbour_query query =
-        neighbour_query_begin(context->neighbours, layers, m->x[i], m->z[i], reach);
+        neighbour_query_begin(context->neighbours, layers, m->row[i].x, m->row[i].z, reach);
     const struct neighbour_index_entry *entry;
     while ((entry = neighbour_query_next(&query)) != NULL) {
         uint32_t j = entry->row;
         if (j == i || j == target)
             continue;
-        double clear = context->world->kinds[w->kind[j]].radius_m + FRIEND_CLEAR_M;
+        double clear = context->world->kinds[w->row[j].kind].radius_m + FRIEND_CLEAR_M;
         struct vec3 to = vec3_sub(step_context_position(context, w, j), muzzle);
         double along = vec3_dot(to, barrel);
         if (along > 0.0 && vec3_dot(to, to) - along * along < clear * clear)
@@ -313,16 +318,16 @@ void turret_hold_fire(const struct step_context *context, uint32_t i,
 {
     struct entities *m = context->m;
     const struct entities *w = &context->committed->entities;
-    const struct kind *kind = &context->world->kinds[m->kind[i]];
-    bool at_target = solution->found && !(m->trigger[i] & TRIGGER_FIRE_AT);
-    if (m->trigger[i] & TRIGGER_FIRE_AT && kind->munition != KIND_NONE &&
+    const struct kind *kind = &context->world->kinds[m->row[i].kind];
+    bool at_target = solution->found && !(m->row[i].trigger & TRIGGER_FIRE_AT);
+    if (m->row[i].trigger & TRIGGER_FIRE_AT && kind->munition != KIND_NONE &&
         angle_between(turret_barrel(m, i), lead_goal(context, i, kind->munition)) > laid_rad(kind))
-        m->trigger[i] &= (uint8_t)~TRIGGER_FIRE_AT;
-    if (!(m->trigger[i] & TRIGGER_FIRE))
+        m->row[i].trigger &= (uint8_t)~TRIGGER_FIRE_AT;
+    if (!(m->row[i].trigger & TRIGGER_FIRE))
         return;
-    if (kind->munition != KIND_NONE && m->rounds[i] > 0 && has_target(context, i) &&
-        context->tick >= m->reload_tick[i] && !(m->flags[i] & ENTITY_FLAG_HOLD_FIRE)) {
-        uint32_t target = m->target_slot[i];
+    if (kind->munition != KIND_NONE && m->row[i].rounds > 0 && has_target(context, i) &&
+        context->tick >= m->row[i].reload_tick && !(m->row[i].flags & ENTITY_FLAG_HOLD_FIRE)) {
+        uint32_t target = m->row[i].target_slot;
         struct vec3 to =
             vec3_sub(step_context_position(context, w, target), entities_position(m, i));
         struct vec3 barrel =
@@ -332,5 +337,5 @@ void turret_hold_fire(const struct step_context *context, uint32_t i,
             !friend_ahead(context, i, target, barrel))
             return;
     }
-    m->trigger[i] &= (uint8_t)~TRIGGER_FIRE;
+    m->row[i].trigger &= (uint8_t)~TRIGGER_FIRE;
 }

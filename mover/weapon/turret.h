@@ -1,4 +1,4 @@
-/* Turrets and guns. The columns turret and gun are angles relative to the hull. They change at the
+/* Turrets and guns. The fields turret and gun are angles relative to the hull. They change at the
  * kind's rates: by a driver's traverse and elevate, else towards the row's target, else an agent's
  * gun returns to rest. A gun that is laid on a target is stabilised, because the solution is found
  * from the present hull; a gun that a driver moves turns and tilts with the hull. A kind without

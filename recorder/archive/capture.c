@@ -26,7 +26,7 @@ int capture_init(struct capture *capture, const struct view *view)
         capture->ring[i].slot = calloc(layout_ring_slots(header, i), sizeof(struct command));
         complete = complete && capture->ring[i].slot;
     }
-    capture->memory = aligned_alloc(COLUMN_ALIGN, entities_bytes(header->capacity));
+    capture->memory = aligned_alloc(TABLE_ALIGN, entities_bytes(header->capacity));
     capture->moved.intents = calloc(header->intents_per_frame + 1, sizeof(struct event));
     if (!complete || !capture->memory || !capture->moved.intents) {
         capture_free(capture);

@@ -26,13 +26,6 @@ static void add(struct list *list, const void *at, size_t bytes)
     list->part[list->count++] = (struct image_part){(void *)(uintptr_t)at, bytes};
 }
 
-static void add_columns(struct list *list, const struct entities *e, uint32_t used)
-{
-#define X(type, name) add(list, e->name, used * sizeof(type));
-    ENTITY_COLUMNS(X)
-#undef X
-}
-
 /* Commands first .. end - 1: one part, or two if they wrap around the end of the ring. */
 static void add_ring(struct list *list, const struct command *ring, uint64_t slots, uint64_t first,
                      uint64_t end)
@@ -53,7 +46,7 @@ uint32_t image_parts(const struct image_header *header, const struct image_table
         add(&list, (const unsigned char *)view->base + view->layout.offset[i],
             view->layout.bytes[i]);
     add(&list, tables->state.head, sizeof *tables->state.head);
-    add_columns(&list, &tables->state.entities, header->used);
+    add(&list, tables->state.entities.row, header->used * sizeof(struct entity));
     add(&list, tables->state.fixed_damage, segment->counts.fixed);
     add(&list, tables->state.contacts, header->contacts * sizeof(struct persistent_contact));
     add(&list, view->w[0].craters, header->craters * sizeof(struct crater));
@@ -63,7 +56,7 @@ uint32_t image_parts(const struct image_header *header, const struct image_table
                  header->ring_end[i]);
     if (header->inputs) {
         add(&list, tables->moved.head, sizeof *tables->moved.head);
-        add_columns(&list, &tables->moved.entities, header->moved_used);
+        add(&list, tables->moved.entities.row, header->moved_used * sizeof(struct entity));
         add(&list, tables->moved.intents, header->intents * sizeof(struct event));
     }
     return list.count;
@@ -71,7 +64,7 @@ uint32_t image_parts(const struct image_header *header, const struct image_table
 
 uint64_t image_content_bytes(const struct image_header *header, const struct layout *layout)
 {
-    uint64_t bytes = sizeof(struct state_head) + header->used * entities_row_bytes() +
+    uint64_t bytes = sizeof(struct state_head) + header->used * sizeof(struct entity) +
                      header->segment.counts.fixed + header->craters * sizeof(struct crater) +
                      header->dents * sizeof(struct dent) +
                      header->contacts * sizeof(struct persistent_contact);
@@ -80,7 +73,7 @@ uint64_t image_content_bytes(const struct image_header *header, const struct lay
     for (int i = 0; i < COMMAND_RING_COUNT; i++)
         bytes += (header->ring_end[i] - header->ring_first[i]) * sizeof(struct command);
     if (header->inputs)
-        bytes += sizeof(struct state_head) + header->moved_used * entities_row_bytes() +
+        bytes += sizeof(struct state_head) + header->moved_used * sizeof(struct entity) +
                  header->intents * sizeof(struct event);
     return bytes;
 }

@@ -248,7 +248,7 @@ static int check_state(const struct view *view, const struct image *image, struc
         head->crater_count != header->craters || head->dent_count != header->dents ||
         head->contact_count != header->contacts)
         return error_text_set(error, "%s: its frame does not fit its header", image->path);
-    table_hash(state_table(&view->w[header->frame & 1]), head->used, NULL);
+    table_hash(state_table(&view->w[header->frame & 1]), 0, head->used, NULL);
     if (segment_check_state(view, header->frame, &what) != 0)
         return error_text_set(error, "%s: %s", image->path, what.text);
     for (int i = 0; i < COMMAND_RING_COUNT; i++) {
@@ -260,7 +260,7 @@ static int check_state(const struct view *view, const struct image *image, struc
         return 0;
     if (moved->used != header->moved_used || moved->intent_count != header->intents)
         return error_text_set(error, "%s: its moved table does not fit its header", image->path);
-    table_hash(moved_table(&view->m), moved->used, NULL);
+    table_hash(moved_table(&view->m), 0, moved->used, NULL);
     if (segment_check_moved(view, header->frame + 1, &what) != 0)
         return error_text_set(error, "%s: %s", image->path, what.text);
     return 0;

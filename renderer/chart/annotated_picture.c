@@ -138,9 +138,9 @@ static void take_followed(struct label_space *space, const struct map_view *view
     const struct entities *e = source->frame_view->entities;
     if (source->slot == SLOT_NONE || space->count == LABEL_SPACE_MAX)
         return;
-    struct point at = map_point(view, e->x[source->slot], e->z[source->slot]);
-    double ahead_x = at.x + length * maths_sin(e->heading[source->slot]);
-    double ahead_y = at.y - length * maths_cos(e->heading[source->slot]);
+    struct point at = map_point(view, e->row[source->slot].x, e->row[source->slot].z);
+    double ahead_x = at.x + length * maths_sin(e->row[source->slot].heading);
+    double ahead_y = at.y - length * maths_cos(e->row[source->slot].heading);
     space->boxes[space->count++] =
         (struct box){(int32_t)maths_min(at.x, ahead_x), (int32_t)maths_min(at.y, ahead_y),
                      (int32_t)fabs(ahead_x - at.x) + 1, (int32_t)fabs(ahead_y - at.y) + 1};
@@ -200,8 +200,8 @@ static int draw_close_up(struct annotated_picture *picture, struct image *image,
     struct box box = picture->layout.close_up;
     double x = 0.5 * picture->world->terrain.squares.world_m, z = x;
     if (source->slot != SLOT_NONE) {
-        x = source->frame_view->entities->x[source->slot];
-        z = source->frame_view->entities->z[source->slot];
+        x = source->frame_view->entities->row[source->slot].x;
+        z = source->frame_view->entities->row[source->slot].z;
     }
     struct map_view view = map_around(x, z, CLOSE_UP_SIDE_M / box.width, 0, 0, (uint32_t)box.width,
                                       (uint32_t)box.height);

@@ -59,8 +59,8 @@ static uint32_t vehicles_under(const struct map_view *view,
         (struct box){box.left - edge, box.top - edge, box.width + 2 * edge, box.height + 2 * edge};
     uint32_t count = 0;
     for (uint32_t i = 0; i < source->frame_view->head->used; i++) {
-        struct point at = map_point(view, e->x[i], e->z[i]);
-        count += e->state[i] != ENTITY_FREE && at.x >= box.left && at.y >= box.top &&
+        struct point at = map_point(view, e->row[i].x, e->row[i].z);
+        count += e->row[i].state != ENTITY_FREE && at.x >= box.left && at.y >= box.top &&
                  at.x < box.left + box.width && at.y < box.top + box.height;
     }
     return count;

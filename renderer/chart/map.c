@@ -144,13 +144,13 @@ void map_objectives(struct image *image, const struct map_view *view,
 
 static enum domain domain_of(const struct frame_view *frame_view, uint32_t slot)
 {
-    return (enum domain)frame_view->world->kinds[frame_view->entities->kind[slot]].domain;
+    return (enum domain)frame_view->world->kinds[frame_view->entities->row[slot].kind].domain;
 }
 
 static bool is_drawn(const struct frame_view *frame_view, uint32_t slot)
 {
-    return frame_view->entities->state[slot] != ENTITY_FREE &&
-           frame_view->entities->kind[slot] < frame_view->world->counts.kinds;
+    return frame_view->entities->row[slot].state != ENTITY_FREE &&
+           frame_view->entities->row[slot].kind < frame_view->world->counts.kinds;
 }
 
 /* Draws the dots of a track from the newest on, leaving out those too close to the one before. */
@@ -178,19 +178,20 @@ void map_tracks(struct image *image, const struct map_view *view,
 {
     const struct entities *e = frame_view->entities;
     for (uint32_t slot = 0; slot < frame_view->head->used; slot++) {
-        const struct track *track = tracks_of(tracks, slot, e->id[slot]);
+        const struct track *track = tracks_of(tracks, slot, e->row[slot].id);
         if (track == NULL || !is_drawn(frame_view, slot) ||
             domain_of(frame_view, slot) == DOMAIN_MUNITION)
             continue;
-        struct rgba colour = symbol_colour((enum force)e->force[slot]);
+        struct rgba colour = symbol_colour((enum force)e->row[slot].force);
         colour.a = opacity;
-        draw_track(image, view, track, map_point(view, e->x[slot], e->z[slot]), pixels, colour);
+        draw_track(image, view, track, map_point(view, e->row[slot].x, e->row[slot].z), pixels,
+                   colour);
     }
 }
 
 static bool burns(const struct frame_view *frame_view, uint32_t slot)
 {
-    uint64_t ticks = frame_view->head->tick - frame_view->entities->changed_tick[slot];
+    uint64_t ticks = frame_view->head->tick - frame_view->entities->row[slot].changed_tick;
     return (double)ticks * world_dt_s(frame_view->world) < FIRE_LIFE_S;
 }
 
@@ -198,7 +199,7 @@ enum rank { RANK_WRECK, RANK_FIRE, RANK_MUNITION, RANK_VEHICLE, RANK_COUNT };
 
 static enum rank rank_of(const struct frame_view *frame_view, uint32_t slot)
 {
-    if (frame_view->entities->state[slot] == ENTITY_WRECK)
+    if (frame_view->entities->row[slot].state == ENTITY_WRECK)
         return burns(frame_view, slot) ? RANK_FIRE : RANK_WRECK;
     return domain_of(frame_view, slot) == DOMAIN_MUNITION ? RANK_MUNITION : RANK_VEHICLE;
 }
@@ -207,7 +208,7 @@ static void draw_symbol(struct image *image, const struct map_view *view,
                         const struct frame_view *frame_view, uint32_t slot, double pixels)
 {
     const struct entities *e = frame_view->entities;
-    struct point at = map_point(view, e->x[slot], e->z[slot]);
+    struct point at = map_point(view, e->row[slot].x, e->row[slot].z);
     if (!map_contains(view, at, OUTSIDE_MOST))
         return;
     switch (rank_of(frame_view, slot)) {
@@ -218,13 +219,13 @@ static void draw_symbol(struct image *image, const struct map_view *view,
         symbol_fire(image, at, pixels);
         break;
     case RANK_MUNITION:
-        symbol_munition(image, at, e->heading[slot], pixels);
+        symbol_munition(image, at, e->row[slot].heading, pixels);
         break;
     default:
         symbol_vehicle(
             image, at,
-            symbol_shape(frame_view->world, &frame_view->world->kinds[e->kind[slot]], pixels),
-            e->heading[slot], pixels, (enum force)e->force[slot]);
+            symbol_shape(frame_view->world, &frame_view->world->kinds[e->row[slot].kind], pixels),
+            e->row[slot].heading, pixels, (enum force)e->row[slot].force);
         break;
     }
 }
@@ -281,10 +282,10 @@ void map_followed(struct image *image, const struct map_view *view,
 {
     const struct rgba dark = {0, 0, 0, 170}, white = {255, 255, 255, 255};
     const struct entities *e = frame_view->entities;
-    struct point at = map_point(view, e->x[slot], e->z[slot]);
+    struct point at = map_point(view, e->row[slot].x, e->row[slot].z);
     if (!map_contains(view, at, length))
         return;
-    double x = maths_sin(e->heading[slot]), y = -maths_cos(e->heading[slot]);
+    double x = maths_sin(e->row[slot].heading), y = -maths_cos(e->row[slot].heading);
     double radius = fmax(0.95 * pixels, 6.0), stroke = fmax(length / STROKE_LENGTH, 1.0);
     struct point edge = {at.x + x * radius, at.y + y * radius};
     struct point ahead = {at.x + x * length, at.y + y * length};

@@ -25,15 +25,15 @@ void tracks_note(struct tracks *tracks, const struct frame_view *frame_view)
     tracks->last_s = now;
     const struct entities *e = frame_view->entities;
     for (uint32_t i = 0; i < frame_view->head->used && i < tracks->slots; i++) {
-        if (e->state[i] != ENTITY_ACTIVE)
+        if (e->row[i].state != ENTITY_ACTIVE)
             continue;
         struct track *track = &tracks->track[i];
-        if (track->id != e->id[i]) {
-            track->id = e->id[i];
+        if (track->id != e->row[i].id) {
+            track->id = e->row[i].id;
             track->count = 0;
         }
-        track->x[track->count % TRACK_POINTS] = (float)e->x[i];
-        track->z[track->count % TRACK_POINTS] = (float)e->z[i];
+        track->x[track->count % TRACK_POINTS] = (float)e->row[i].x;
+        track->z[track->count % TRACK_POINTS] = (float)e->row[i].z;
         track->count++;
     }
 }

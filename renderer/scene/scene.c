@@ -74,11 +74,11 @@ static void set_articulation(const struct draw_list *list, const struct frame_vi
 {
     const struct entities *e = frame_view->entities;
     struct articulation_state state = articulation_of(frame_view->articulation, frame_view, slot);
-    double turns = e->state[slot] == ENTITY_WRECK ? 0.0 : ROTOR_HZ * list->time_s;
+    double turns = e->row[slot].state == ENTITY_WRECK ? 0.0 : ROTOR_HZ * list->time_s;
     body->turret_rad = state.turret_rad;
     body->gun_rad = state.gun_rad;
     body->steer_rad = state.steer_rad;
-    body->rotor_rad = (float)(TWO_PI * (turns - floor(turns)) + e->id[slot] % 7u);
+    body->rotor_rad = (float)(TWO_PI * (turns - floor(turns)) + e->row[slot].id % 7u);
     for (uint32_t side = 0; side < 2; side++)
         body->travel_m[side] = (float)state.travel_m[side];
 }
@@ -86,9 +86,9 @@ static void set_articulation(const struct draw_list *list, const struct frame_vi
 static float burn_of(const struct entities *e, uint32_t slot)
 {
     static const float burn[DAMAGE_COUNT] = {0.0f, BURN_LOW, BURN_MED, BURN_HIGH, 1.0f};
-    if (e->state[slot] == ENTITY_WRECK)
+    if (e->row[slot].state == ENTITY_WRECK)
         return 1.0f;
-    return e->damage[slot] < DAMAGE_COUNT ? burn[e->damage[slot]] : 1.0f;
+    return e->row[slot].damage < DAMAGE_COUNT ? burn[e->row[slot].damage] : 1.0f;
 }
 
 /* Adds the body's dents to the draw list. */
@@ -128,9 +128,9 @@ static void flatten(const struct frame_view *frame_view, double radius_m, struct
 static void add_entity(struct draw_list *list, const struct frame_view *frame_view, uint32_t slot)
 {
     const struct entities *e = frame_view->entities;
-    if (e->state[slot] == ENTITY_FREE || e->kind[slot] >= frame_view->world->counts.kinds)
+    if (e->row[slot].state == ENTITY_FREE || e->row[slot].kind >= frame_view->world->counts.kinds)
         return;
-    const struct kind *kind = &frame_view->world->kinds[e->kind[slot]];
+    const struct kind *kind = &frame_view->world->kinds[e->row[slot].kind];
     if (kind->model >= frame_view->world->counts.models)
         return;
     struct vec3 position = entities_position(e, slot);
@@ -139,20 +139,21 @@ static void add_entity(struct draw_list *list, const struct frame_view *frame_vi
     /* The radius is enlarged because the shadow may be in view when the body is not. */
     if (pixels < BODY_MIN_PIXELS || !camera_sees(&list->camera, position, 3.0 * kind->radius_m))
         return;
-    bool bent = pixels > BENT_MIN_PIXELS && dent_index_any(frame_view->dents, e->id[slot]);
+    bool bent = pixels > BENT_MIN_PIXELS && dent_index_any(frame_view->dents, e->row[slot].id);
     struct draw_list_body *body =
         draw_list_add_body(list, kind->model, draw_list_detail(pixels, bent));
     if (body == NULL)
         return;
-    struct body_axes axes = body_axes_of(e->heading[slot], e->pitch[slot], e->roll[slot]);
-    if (e->state[slot] == ENTITY_WRECK && e->flags[slot] & ENTITY_FLAG_BROKEN)
+    struct body_axes axes =
+        body_axes_of(e->row[slot].heading, e->row[slot].pitch, e->row[slot].roll);
+    if (e->row[slot].state == ENTITY_WRECK && e->row[slot].flags & ENTITY_FLAG_BROKEN)
         flatten(frame_view, kind->radius_m, &position, &axes);
     draw_list_place_body(list, body, position, &axes, 1.0);
-    memcpy(body->tint, force_colours[e->force[slot] % FORCE_COUNT], sizeof body->tint);
+    memcpy(body->tint, force_colours[e->row[slot].force % FORCE_COUNT], sizeof body->tint);
     body->burn = burn_of(e, slot);
     set_articulation(list, frame_view, slot, body);
     if (bent)
-        add_dents(list, frame_view, e->id[slot], body);
+        add_dents(list, frame_view, e->row[slot].id, body);
     draw_list_add_shadow(list, frame_view, position, pixels);
 }
 

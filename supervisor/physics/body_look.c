@@ -93,23 +93,23 @@ static void read_motion(struct motion_look *look, const struct body_looks *looks
                         const struct world *world, const struct state *state, uint32_t row)
 {
     const struct entities *e = &state->entities;
-    enum domain domain = (enum domain)world->kinds[e->kind[row]].domain;
+    enum domain domain = (enum domain)world->kinds[e->row[row].kind].domain;
     struct cruise_pose pose = cruise_pose_of(world, looks->craters, e, row, state->head->tick);
-    *look = (struct motion_look){.pose = {.at = pose.at},
-                                 .heading = pose.heading_rad,
-                                 .turret = (double)e->turret[row],
-                                 .gun = (double)e->gun[row],
-                                 .pitch = pose.pitch_rad,
-                                 .roll = pose.roll_rad,
-                                 .velocity =
-                                     cruise_velocity(e, row, state->head->tick, world_dt_s(world)),
-                                 .spin = {e->spin_x[row], e->spin_y[row], e->spin_z[row]},
-                                 .wreck = e->state[row] == ENTITY_WRECK};
+    *look = (struct motion_look){
+        .pose = {.at = pose.at},
+        .heading = pose.heading_rad,
+        .turret = (double)e->row[row].turret,
+        .gun = (double)e->row[row].gun,
+        .pitch = pose.pitch_rad,
+        .roll = pose.roll_rad,
+        .velocity = cruise_velocity(e, row, state->head->tick, world_dt_s(world)),
+        .spin = {e->row[row].spin_x, e->row[row].spin_y, e->row[row].spin_z},
+        .wreck = e->row[row].state == ENTITY_WRECK};
     look->sprung =
-        !look->wreck && domain == DOMAIN_LAND && (e->flags[row] & ENTITY_FLAG_CHASSIS) != 0;
+        !look->wreck && domain == DOMAIN_LAND && (e->row[row].flags & ENTITY_FLAG_CHASSIS) != 0;
     look->courses = !look->wreck && !look->sprung && domain == DOMAIN_LAND &&
-                    e->behaviour[row] == BEHAVIOUR_HOLD;
-    look->at_rest = is_at_rest(look, e->until_tick[row], state->head->tick);
+                    e->row[row].behaviour == BEHAVIOUR_HOLD;
+    look->at_rest = is_at_rest(look, e->row[row].until_tick, state->head->tick);
 }
 
 static void read_body(struct body_looks *looks, const struct world *world,
@@ -118,13 +118,14 @@ static void read_body(struct body_looks *looks, const struct world *world,
     const struct entities *e = &state->entities;
     struct body_look *body = &looks->body[looks->count];
     const struct row_memory *memory = &looks->memory[row];
-    *body = (struct body_look){.row = row, .kind = &world->kinds[e->kind[row]]};
+    *body = (struct body_look){.row = row, .kind = &world->kinds[e->row[row].kind]};
     read_motion(&body->now, looks, world, state, row);
-    body->named = (struct measured_body){e->id[row], false, e->kind[row], body->now.pose.at};
+    body->named =
+        (struct measured_body){e->row[row].id, false, e->row[row].kind, body->now.pose.at};
     body->finite = all_finite(&body->now);
     body->foreign = remote_is(e, row);
     looks->foreign += body->foreign;
-    body->known = memory->id == e->id[row] && body->finite;
+    body->known = memory->id == e->row[row].id && body->finite;
     if (body->known) {
         body->was = &memory->look;
         body->touched = memory->touched;
@@ -152,7 +153,8 @@ void body_looks_begin(struct body_looks *looks, const struct world *world,
     looks->rows = state->head->used;
     for (uint32_t row = 0; row < state->head->used; row++) {
         looks->of_row[row] = NO_LOOK;
-        if (e->state[row] == ENTITY_FREE || world->kinds[e->kind[row]].domain == DOMAIN_MUNITION)
+        if (e->row[row].state == ENTITY_FREE ||
+            world->kinds[e->row[row].kind].domain == DOMAIN_MUNITION)
             looks->memory[row].id = 0;
         else
             read_body(looks, world, state, row);

@@ -59,27 +59,31 @@ static void set_values(struct difference *difference, enum value_type type, cons
 
 /* --- entities ----------------------------------------------------------------------------------*/
 
-struct column {
+struct field {
     const char *name;
     enum value_type type;
-    const unsigned char *a, *b;
+    size_t offset;
 };
 
-/* Returns the row of the first value that differs, or count. */
-static uint32_t first_row(const struct column *column, uint32_t count)
+static const unsigned char *value_of(const struct field *field, const struct entity *row)
 {
-    size_t bytes = value_bytes[column->type];
-    if (memcmp(column->a, column->b, count * bytes) == 0)
-        return count;
+    return (const unsigned char *)row + field->offset;
+}
+
+/* Returns the first row in which this field differs, or count. */
+static uint32_t first_row(const struct field *field, const struct entity *a, const struct entity *b,
+                          uint32_t count)
+{
     uint32_t row = 0;
-    while (memcmp(column->a + row * bytes, column->b + row * bytes, bytes) == 0)
+    while (row < count && memcmp(value_of(field, &a[row]), value_of(field, &b[row]),
+                                 value_bytes[field->type]) == 0)
         row++;
     return row;
 }
 
 static void name_entity(struct difference *difference, const struct compared *a, uint32_t row)
 {
-    uint32_t id = a->state.entities.id[row];
+    uint32_t id = a->state.entities.row[row].id;
     const char *name = world_entity_name(a->world, id);
     difference->row = row;
     if (name[0])
@@ -93,22 +97,22 @@ static void name_entity(struct difference *difference, const struct compared *a,
 static bool compare_entities(const struct compared *a, const struct compared *b,
                              struct difference *difference)
 {
-    const struct entities *p = &a->state.entities, *q = &b->state.entities;
+    static const struct field fields[] = {
+#define X(type, name) {#name, TYPE_OF(type), offsetof(struct entity, name)},
+        ENTITY_FIELDS(X)
+#undef X
+    };
+    const struct entity *p = a->state.entities.row, *q = b->state.entities.row;
     uint32_t rows =
         a->state.head->used < b->state.head->used ? a->state.head->used : b->state.head->used;
-#define X(type, name)                                                                              \
-    {#name, TYPE_OF(type), (const unsigned char *)p->name, (const unsigned char *)q->name},
-    const struct column columns[] = {ENTITY_COLUMNS(X)};
-#undef X
-    for (size_t i = 0; i < COUNT(columns); i++) {
-        const struct column *column = &columns[i];
-        size_t bytes = value_bytes[column->type];
-        uint32_t row = first_row(column, rows);
+    for (size_t i = 0; i < COUNT(fields); i++) {
+        uint32_t row = first_row(&fields[i], p, q, rows);
         if (row == rows)
             continue;
         if (difference->columns++ == 0) {
-            snprintf(difference->column, sizeof difference->column, "%s", column->name);
-            set_values(difference, column->type, column->a + row * bytes, column->b + row * bytes);
+            snprintf(difference->column, sizeof difference->column, "%s", fields[i].name);
+            set_values(difference, fields[i].type, value_of(&fields[i], &p[row]),
+                       value_of(&fields[i], &q[row]));
             name_entity(difference, a, row);
         }
     }

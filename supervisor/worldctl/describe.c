@@ -59,7 +59,7 @@ static void info_text(const struct view *view, const struct dispersion *d)
     printf("scenario     %s\n", params->scenario);
     printf("step         %g Hz, pace %s\n", params->hz, params->pace == PACE_MAX ? "max" : "real");
     printf("memory       %.1f MB, room for %u entities of %zu bytes a table, and %u contacts\n",
-           (double)view->layout.total / 1e6, params->capacity, entities_row_bytes(),
+           (double)view->layout.total / 1e6, params->capacity, sizeof(struct entity),
            params->contact_slots);
     printf("terrain      %u x %u posts, %g m apart\n", counts->posts_side, counts->posts_side,
            world->terrain.spacing_m);
@@ -86,7 +86,7 @@ static void info_json(const struct view *view, const struct dispersion *d)
     json_whole(object, "capacity", params->capacity);
     json_whole(object, "contact_slots", params->contact_slots);
     json_whole(object, "bytes", view->layout.total);
-    json_whole(object, "bytes_per_entity", entities_row_bytes());
+    json_whole(object, "bytes_per_entity", sizeof(struct entity));
     json_whole(object, "vehicles", params->initial_entities);
     cJSON *counts = json_object(object, "counts");
     for (int i = 0; i < OBJECT_CLASS_COUNT; i++)

@@ -32,33 +32,33 @@ static cJSON *entity_json(const struct world *world, const struct state_head *he
                           const struct entities *e, uint32_t i)
 {
     cJSON *object = cJSON_CreateObject();
-    json_whole(object, "id", e->id[i]);
-    json_text(object, "kind", world->kinds[e->kind[i]].name);
-    const char *name = world_entity_name(world, e->id[i]);
+    json_whole(object, "id", e->row[i].id);
+    json_text(object, "kind", world->kinds[e->row[i].kind].name);
+    const char *name = world_entity_name(world, e->row[i].id);
     if (name[0] != '\0')
         json_text(object, "name", name);
-    json_text(object, "force", force_name((enum force)e->force[i]));
-    json_triple(object, "position", e->x[i], e->y[i], e->z[i]);
-    json_triple(object, "velocity", e->vx[i], e->vy[i], e->vz[i]);
-    json_number(object, "heading_deg", e->heading[i] * DEG_PER_RAD);
-    json_number(object, "pitch_deg", e->pitch[i] * DEG_PER_RAD);
-    json_number(object, "roll_deg", e->roll[i] * DEG_PER_RAD);
+    json_text(object, "force", force_name((enum force)e->row[i].force));
+    json_triple(object, "position", e->row[i].x, e->row[i].y, e->row[i].z);
+    json_triple(object, "velocity", e->row[i].vx, e->row[i].vy, e->row[i].vz);
+    json_number(object, "heading_deg", e->row[i].heading * DEG_PER_RAD);
+    json_number(object, "pitch_deg", e->row[i].pitch * DEG_PER_RAD);
+    json_number(object, "roll_deg", e->row[i].roll * DEG_PER_RAD);
     json_number(object, "speed_mps", vec3_length(entities_velocity(e, i)));
-    json_text(object, "state", entity_state_name((enum entity_state)e->state[i]));
-    json_bool(object, "grounded", grounded_of(e, &world->kinds[e->kind[i]], i));
-    json_text(object, "damage", damage_name((enum damage)e->damage[i]));
-    json_whole(object, "rounds", e->rounds[i]);
-    json_number(object, "fuel", e->fuel_l[i]);
-    json_number(object, "turret_deg", (double)e->turret[i] * DEG_PER_RAD);
-    json_number(object, "gun_deg", (double)e->gun[i] * DEG_PER_RAD);
-    json_number(object, "reload_s", reload_s(world, head, e->reload_tick[i]));
-    json_number(object, "throttle", (double)e->throttle[i]);
-    json_text(object, "gear", gear_name(entity_gear(e->flags[i])));
-    json_text(object, "behaviour", behaviour_name((enum behaviour)e->behaviour[i]));
+    json_text(object, "state", entity_state_name((enum entity_state)e->row[i].state));
+    json_bool(object, "grounded", grounded_of(e, &world->kinds[e->row[i].kind], i));
+    json_text(object, "damage", damage_name((enum damage)e->row[i].damage));
+    json_whole(object, "rounds", e->row[i].rounds);
+    json_number(object, "fuel", e->row[i].fuel_l);
+    json_number(object, "turret_deg", (double)e->row[i].turret * DEG_PER_RAD);
+    json_number(object, "gun_deg", (double)e->row[i].gun * DEG_PER_RAD);
+    json_number(object, "reload_s", reload_s(world, head, e->row[i].reload_tick));
+    json_number(object, "throttle", (double)e->row[i].throttle);
+    json_text(object, "gear", gear_name(entity_gear(e->row[i].flags)));
+    json_text(object, "behaviour", behaviour_name((enum behaviour)e->row[i].behaviour));
     if (remote_is(e, i)) {
         char marking[REMOTE_MARKING_MAX + 1];
         remote_marking(e, i, marking);
-        add_remote(object, e->driver[i]);
+        add_remote(object, e->row[i].driver);
         json_text(object, "marking", marking);
     }
     return object;
@@ -71,7 +71,7 @@ static void dump_entities_json(const struct view *view, const struct snapshot *s
     if (contact_chains_make(&chains, snapshot) != 0)
         die_refused("out of memory for the contacts");
     for (uint32_t i = 0; i < snapshot->head.used; i++) {
-        if (e->state[i] == ENTITY_FREE)
+        if (e->row[i].state == ENTITY_FREE)
             continue;
         cJSON *object = entity_json(&view->world, &snapshot->head, e, i);
         contact_chains_json(object, &chains, i);
@@ -89,16 +89,17 @@ static void dump_entities(const struct arguments *arguments, const struct view *
         return;
     }
     for (uint32_t i = 0; i < snapshot->head.used; i++) {
-        if (e->state[i] == ENTITY_FREE)
+        if (e->row[i].state == ENTITY_FREE)
             continue;
-        const struct kind *kind = &view->world.kinds[e->kind[i]];
+        const struct kind *kind = &view->world.kinds[e->row[i].kind];
         const char *grounded = grounded_word(e, kind, i);
         printf("%6u %-14s %-7s x %10.2f y %8.2f z %10.2f heading %5.1f %6.1f m/s %-7s %-9s %s\n",
-               e->id[i], kind->name, force_name((enum force)e->force[i]), e->x[i], e->y[i], e->z[i],
-               e->heading[i] * DEG_PER_RAD, vec3_length(entities_velocity(e, i)),
-               grounded ? grounded : entity_state_name((enum entity_state)e->state[i]),
-               damage_name((enum damage)e->damage[i]),
-               behaviour_name((enum behaviour)e->behaviour[i]));
+               e->row[i].id, kind->name, force_name((enum force)e->row[i].force), e->row[i].x,
+               e->row[i].y, e->row[i].z, e->row[i].heading * DEG_PER_RAD,
+               vec3_length(entities_velocity(e, i)),
+               grounded ? grounded : entity_state_name((enum entity_state)e->row[i].state),
+               damage_name((enum damage)e->row[i].damage),
+               behaviour_name((enum behaviour)e->row[i].behaviour));
     }
 }
 

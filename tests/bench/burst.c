@@ -30,12 +30,12 @@ void burst_drop(struct view *view, uint32_t bombs)
     for (uint32_t n = 0; n < bombs; n++) {
         uint32_t row = head->used++;
         entities_clear(e, row);
-        e->id[row] = head->next_id++;
-        e->kind[row] = kind;
-        e->state[row] = ENTITY_ACTIVE;
-        e->behaviour[row] = e->order[row] = BEHAVIOUR_FLIGHT;
-        e->born_tick[row] = (uint32_t)head->tick;
-        e->until_tick[row] = (uint32_t)head->tick + second + n % second;
+        e->row[row].id = head->next_id++;
+        e->row[row].kind = kind;
+        e->row[row].state = ENTITY_ACTIVE;
+        e->row[row].behaviour = e->row[row].order = BEHAVIOUR_FLIGHT;
+        e->row[row].born_tick = (uint32_t)head->tick;
+        e->row[row].until_tick = (uint32_t)head->tick + second + n % second;
         entities_set_position(e, row, place_of(n, bombs));
     }
     head->munitions += bombs;

@@ -66,7 +66,7 @@ static void make_world(struct jolon *self)
                                                .radius_m = (float)scene->fixed[i].radius_m,
                                                .kind = 1};
     /* The table belongs to the world and not to detection, so it is mapped and not counted. */
-    self->rows_bytes = entities_bytes(scene->bodies) + COLUMN_ALIGN;
+    self->rows_bytes = entities_bytes(scene->bodies) + TABLE_ALIGN;
     self->rows =
         mmap(NULL, self->rows_bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
     if (self->rows == MAP_FAILED)
@@ -74,9 +74,9 @@ static void make_world(struct jolon *self)
     entities_bind(&self->entities, scene->bodies, self->rows);
     self->path = reserve(scene->bodies * sizeof *self->path);
     for (uint32_t i = 0; i < scene->bodies; i++) {
-        self->entities.id[i] = i + 1;
-        self->entities.state[i] = ENTITY_ACTIVE;
-        self->entities.behaviour[i] = BEHAVIOUR_HOLD;
+        self->entities.row[i].id = i + 1;
+        self->entities.row[i].state = ENTITY_ACTIVE;
+        self->entities.row[i].behaviour = BEHAVIOUR_HOLD;
     }
     self->world = (struct world){
         .params = &self->params,

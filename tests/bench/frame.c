@@ -88,8 +88,8 @@ static void count_changes(const struct frame_stepper *stepper, struct controls *
     const struct state *state = &stepper->view->w[frame_stepper_frame(stepper) & 1];
     const struct entities *e = &state->entities;
     for (uint32_t i = 0; i < state->head->used; i++) {
-        const struct controls now = {e->throttle[i], e->steer[i], e->climb[i],
-                                     e->heading[i],  e->vx[i],    e->vz[i]};
+        const struct controls now = {e->row[i].throttle, e->row[i].steer, e->row[i].climb,
+                                     e->row[i].heading,  e->row[i].vx,    e->row[i].vz};
         const struct controls *before = &controls[i];
         changes->controls += before->throttle != now.throttle || before->steer != now.steer ||
                              before->climb != now.climb;
@@ -212,11 +212,11 @@ static void drive_all(const struct view *view)
     for (int buffer = 0; buffer < 2; buffer++) {
         struct entities e = view->w[buffer].entities;
         for (uint32_t i = 0; i < view->w[buffer].head->used; i++) {
-            if (view->world.kinds[e.kind[i]].domain != DOMAIN_LAND)
+            if (view->world.kinds[e.row[i].kind].domain != DOMAIN_LAND)
                 continue;
-            e.behaviour[i] = BEHAVIOUR_DRIVEN;
-            e.throttle[i] = 0.6f;
-            e.steer[i] = i & 1 ? 0.2f : -0.2f;
+            e.row[i].behaviour = BEHAVIOUR_DRIVEN;
+            e.row[i].throttle = 0.6f;
+            e.row[i].steer = i & 1 ? 0.2f : -0.2f;
         }
     }
 }

@@ -32,8 +32,8 @@ static void *jolon_open(const struct heap_tanks *tanks, uint32_t threads)
         die_refused("cannot begin: %s", strerror(errno));
     const struct entities *e = &committed(self)->entities;
     for (uint32_t i = 0; i < tanks->count; i++) {
-        e->behaviour[i] = BEHAVIOUR_DRIVEN;
-        e->until_tick[i] = UINT32_MAX;
+        e->row[i].behaviour = BEHAVIOUR_DRIVEN;
+        e->row[i].until_tick = UINT32_MAX;
     }
     return self;
 }
@@ -51,7 +51,7 @@ static void jolon_drive(void *handle, bool push)
     struct jolon *self = handle;
     const struct entities *e = &committed(self)->entities;
     for (uint32_t i = 0; i < self->tanks && push != self->pushes; i++)
-        e->throttle[i] = push ? 1.0f : 0.0f;
+        e->row[i].throttle = push ? 1.0f : 0.0f;
     if (push != self->pushes)
         self->stepper.mover.left = self->stepper.collider.left[0] = self->stepper.collider.left[1] =
             0;
@@ -67,8 +67,8 @@ static void jolon_step(void *handle)
 
 static struct heap_body body_of(const struct entities *e, uint32_t row)
 {
-    struct rigid_pose pose =
-        rigid_pose_of(entities_position(e, row), e->heading[row], e->pitch[row], e->roll[row]);
+    struct rigid_pose pose = rigid_pose_of(entities_position(e, row), e->row[row].heading,
+                                           e->row[row].pitch, e->row[row].roll);
     return (struct heap_body){
         .at = {pose.at.x - BENCH_MIDDLE_M, pose.at.y, pose.at.z - BENCH_MIDDLE_M},
         .forward = {pose.forward.x, pose.forward.y, pose.forward.z},

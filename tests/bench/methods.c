@@ -54,11 +54,11 @@ static void make_field(struct field *field, uint32_t bodies)
         .shape = SHAPE_SPHERE, .nearness = NEARNESS_AND, .mps_near_m = MPS_NEAR_M};
     field->reach_start = calloc(GRIDSQUARES_DEFAULT.count + 1, sizeof *field->reach_start);
     field->path = calloc(bodies, sizeof *field->path);
-    field->memory = calloc(1, entities_bytes(bodies) + COLUMN_ALIGN);
+    field->memory = calloc(1, entities_bytes(bodies) + TABLE_ALIGN);
     if (!field->reach_start || !field->path || !field->memory)
         die_refused("out of memory");
-    uintptr_t past = (uintptr_t)field->memory % COLUMN_ALIGN;
-    entities_bind(&field->entities, bodies, (char *)field->memory + (COLUMN_ALIGN - past));
+    uintptr_t past = (uintptr_t)field->memory % TABLE_ALIGN;
+    entities_bind(&field->entities, bodies, (char *)field->memory + (TABLE_ALIGN - past));
     field->world = (struct world){.params = &field->params,
                                   .counts = {.kinds = 1},
                                   .terrain = {field->posts, field->cover, 2, WORLD_SIDE_DEFAULT_M,
@@ -96,9 +96,9 @@ static void place_bodies(struct field *field)
                    draw(platoon, RANDOM_GOAL_Z, 0.0, WORLD_SIDE_DEFAULT_M - PLATOON_M) +
                        draw(i, RANDOM_PLACE_Z, 0.0, PLATOON_M)},
             .along = {speed * DT_S * sine, 0.0, speed * DT_S * cosine}};
-        e->id[i] = i + 1;
-        e->state[i] = ENTITY_ACTIVE;
-        e->behaviour[i] = BEHAVIOUR_HOLD;
+        e->row[i].id = i + 1;
+        e->row[i].state = ENTITY_ACTIVE;
+        e->row[i].behaviour = BEHAVIOUR_HOLD;
         entities_set_position(e, i, path_at(&field->path[i], 1.0));
     }
 }

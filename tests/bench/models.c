@@ -65,7 +65,8 @@ static struct vec3 put(struct bench_scene *s, uint32_t kind_index, uint32_t colu
     const struct state *state = &s->view.w[0];
     const struct entities *e = &state->entities;
     double middle = 0.5 * (double)(skeleton->low[1] + skeleton->high[1]);
-    memset(e->state, ENTITY_FREE, state->head->used);
+    for (uint32_t row = 0; row < state->head->used; row++)
+        e->row[row].state = ENTITY_FREE;
     if (kind->domain == DOMAIN_FIXED) {
         uint32_t i = fixed_of(world, kind_index);
         if (i == world->counts.fixed)
@@ -74,23 +75,23 @@ static struct vec3 put(struct bench_scene *s, uint32_t kind_index, uint32_t colu
         return vec3_add(fixed_position(&world->fixed[i]), (struct vec3){0.0, middle, 0.0});
     }
     bool stands = kind->domain == DOMAIN_LAND;
-    e->id[0] = 1;
-    e->state[0] = column == WRECK ? ENTITY_WRECK : ENTITY_ACTIVE;
-    e->kind[0] = (uint16_t)kind_index;
-    e->force[0] = column == BEHIND || column == MED ? FORCE_RED
-                  : column == SMALL                 ? FORCE_NEUTRAL
-                                                    : FORCE_BLUE;
-    e->damage[0] = damages[column];
-    e->behaviour[0] = BEHAVIOUR_HOLD;
-    e->x[0] = AWAY;
-    e->z[0] = AWAY;
-    e->y[0] = terrain_base_height(&world->terrain, AWAY, AWAY) +
-              (stands ? 0.0 : 1.0 - (double)skeleton->low[1]);
-    e->heading[0] = e->pitch[0] = e->roll[0] = 0.0;
+    e->row[0].id = 1;
+    e->row[0].state = column == WRECK ? ENTITY_WRECK : ENTITY_ACTIVE;
+    e->row[0].kind = (uint16_t)kind_index;
+    e->row[0].force = column == BEHIND || column == MED ? FORCE_RED
+                      : column == SMALL                 ? FORCE_NEUTRAL
+                                                        : FORCE_BLUE;
+    e->row[0].damage = damages[column];
+    e->row[0].behaviour = BEHAVIOUR_HOLD;
+    e->row[0].x = AWAY;
+    e->row[0].z = AWAY;
+    e->row[0].y = terrain_base_height(&world->terrain, AWAY, AWAY) +
+                  (stands ? 0.0 : 1.0 - (double)skeleton->low[1]);
+    e->row[0].heading = e->row[0].pitch = e->row[0].roll = 0.0;
     bend(s, skeleton, (enum damage)damages[column]);
     struct frame_view frame_view = bench_scene_frame_view(s);
     articulation_note(&s->articulation, &frame_view);
-    return (struct vec3){AWAY, e->y[0] + middle, AWAY};
+    return (struct vec3){AWAY, e->row[0].y + middle, AWAY};
 }
 
 static double size_of(const struct mesh_skeleton *skeleton)

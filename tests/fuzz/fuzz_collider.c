@@ -103,17 +103,18 @@ static void put_body(const uint8_t *body)
     entities_set_position(e, row, place_of(body));
     entities_set_velocity(
         e, row, (struct vec3){speed * sine, round ? 50.0 * share(body[7]) : 0.0, -speed * cosine});
-    e->heading[row] = heading;
-    e->id[row] = head->next_id++;
-    e->kind[row] = kind;
-    e->state[row] = !round && body[8] > 230 ? ENTITY_WRECK : ENTITY_ACTIVE;
-    e->behaviour[row] = e->order[row] = round                           ? BEHAVIOUR_FLIGHT
-                                        : e->state[row] == ENTITY_WRECK ? BEHAVIOUR_IDLE
-                                                                        : BEHAVIOUR_HOLD;
-    e->fuel_l[row] = of->fuel_l;
-    e->until_tick[row] = round ? 1 + body[8] % 8 : 0;
-    e->owner_slot[row] = body[9] % ROWS_MAX;
-    e->owner_id[row] = body[9] % 3 ? e->owner_slot[row] + 1 : 0;
+    e->row[row].heading = heading;
+    e->row[row].id = head->next_id++;
+    e->row[row].kind = kind;
+    e->row[row].state = !round && body[8] > 230 ? ENTITY_WRECK : ENTITY_ACTIVE;
+    e->row[row].behaviour = e->row[row].order = round ? BEHAVIOUR_FLIGHT
+                                                : e->row[row].state == ENTITY_WRECK
+                                                    ? BEHAVIOUR_IDLE
+                                                    : BEHAVIOUR_HOLD;
+    e->row[row].fuel_l = of->fuel_l;
+    e->row[row].until_tick = round ? 1 + body[8] % 8 : 0;
+    e->row[row].owner_slot = body[9] % ROWS_MAX;
+    e->row[row].owner_id = body[9] % 3 ? e->row[row].owner_slot + 1 : 0;
     *(round ? &head->munitions : &head->vehicles) += 1;
     head->alloc_next = head->used;
 }
@@ -126,16 +127,17 @@ static void check_rows(const struct state *state)
     const struct state_head *head = state->head;
     CHECK(head->used <= view.header->capacity && head->vehicles + head->munitions <= head->used);
     for (uint32_t i = 0; i < head->used; i++) {
-        if (e->state[i] == ENTITY_FREE)
+        if (e->row[i].state == ENTITY_FREE)
             continue;
-        bool inside = e->x[i] >= 0.0 && e->x[i] <= WORLD_SIDE_DEFAULT_M && e->z[i] >= 0.0 &&
-                      e->z[i] <= WORLD_SIDE_DEFAULT_M;
-        CHECK(inside || e->behaviour[i] == BEHAVIOUR_FLIGHT); /* rounds fly out of the world */
-        CHECK(isfinite(e->x[i]) && isfinite(e->z[i]));
-        CHECK(isfinite(e->y[i]) && isfinite(e->heading[i]) && isfinite(e->harm_j[i]));
-        CHECK(isfinite(e->vx[i]) && isfinite(e->vy[i]) && isfinite(e->vz[i]));
-        CHECK(isfinite(e->spin_x[i]) && isfinite(e->spin_y[i]) && isfinite(e->spin_z[i]));
-        CHECK(e->kind[i] < view.world.counts.kinds && e->damage[i] <= DAMAGE_DESTROYED);
+        bool inside = e->row[i].x >= 0.0 && e->row[i].x <= WORLD_SIDE_DEFAULT_M &&
+                      e->row[i].z >= 0.0 && e->row[i].z <= WORLD_SIDE_DEFAULT_M;
+        CHECK(inside || e->row[i].behaviour == BEHAVIOUR_FLIGHT); /* rounds fly out of the world */
+        CHECK(isfinite(e->row[i].x) && isfinite(e->row[i].z));
+        CHECK(isfinite(e->row[i].y) && isfinite(e->row[i].heading) && isfinite(e->row[i].harm_j));
+        CHECK(isfinite(e->row[i].vx) && isfinite(e->row[i].vy) && isfinite(e->row[i].vz));
+        CHECK(isfinite(e->row[i].spin_x) && isfinite(e->row[i].spin_y) &&
+              isfinite(e->row[i].spin_z));
+        CHECK(e->row[i].kind < view.world.counts.kinds && e->row[i].damage <= DAMAGE_DESTROYED);
     }
 }
 

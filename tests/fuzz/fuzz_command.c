@@ -35,10 +35,10 @@ static void check_moved(void)
           head->intent_count <= view.header->intents_per_frame);
     CHECK(head->time_scale >= 0.01 && head->time_scale <= 100.0);
     for (uint32_t i = 0; i < head->used; i++) {
-        CHECK(e->state[i] == ENTITY_FREE || e->kind[i] < view.world.counts.kinds);
-        CHECK(isfinite(e->x[i]) && isfinite(e->y[i]) && isfinite(e->z[i]));
-        CHECK(isfinite(e->vx[i]) && isfinite(e->vy[i]) && isfinite(e->vz[i]));
-        CHECK(isfinite(e->heading[i]));
+        CHECK(e->row[i].state == ENTITY_FREE || e->row[i].kind < view.world.counts.kinds);
+        CHECK(isfinite(e->row[i].x) && isfinite(e->row[i].y) && isfinite(e->row[i].z));
+        CHECK(isfinite(e->row[i].vx) && isfinite(e->row[i].vy) && isfinite(e->row[i].vz));
+        CHECK(isfinite(e->row[i].heading));
     }
 }
 

@@ -94,13 +94,13 @@ static void put_tank(void)
 {
     const struct entities *e = &view.w[0].entities;
     struct state_head *head = view.w[0].head;
-    while (view.world.kinds[e->kind[0]].domain != DOMAIN_LAND)
-        e->kind[0]++;
+    while (view.world.kinds[e->row[0].kind].domain != DOMAIN_LAND)
+        e->row[0].kind++;
     entities_set_position(e, 0, (struct vec3){25000.0, 100.0, 25000.0});
-    e->id[0] = head->next_id++;
-    e->state[0] = ENTITY_ACTIVE;
-    e->behaviour[0] = e->order[0] = BEHAVIOUR_IDLE;
-    e->fuel_l[0] = view.world.kinds[e->kind[0]].fuel_l;
+    e->row[0].id = head->next_id++;
+    e->row[0].state = ENTITY_ACTIVE;
+    e->row[0].behaviour = e->row[0].order = BEHAVIOUR_IDLE;
+    e->row[0].fuel_l = view.world.kinds[e->row[0].kind].fuel_l;
     head->used = head->alloc_next = head->vehicles = 1;
 }
 
@@ -139,13 +139,14 @@ static void check_rows(const struct state *state)
 {
     const struct entities *e = &state->entities;
     for (uint32_t i = 0; i < state->head->used; i++) {
-        if (e->state[i] == ENTITY_FREE)
+        if (e->row[i].state == ENTITY_FREE)
             continue;
-        CHECK(isfinite(e->x[i]) && isfinite(e->y[i]) && isfinite(e->z[i]));
-        CHECK(isfinite(e->vx[i]) && isfinite(e->vy[i]) && isfinite(e->vz[i]));
-        CHECK(isfinite(e->heading[i]) && isfinite(e->pitch[i]) && isfinite(e->roll[i]));
-        CHECK(isfinite(e->spin_x[i]) && isfinite(e->spin_y[i]) && isfinite(e->spin_z[i]));
-        CHECK(e->kind[i] < view.world.counts.kinds && e->damage[i] <= DAMAGE_DESTROYED);
+        CHECK(isfinite(e->row[i].x) && isfinite(e->row[i].y) && isfinite(e->row[i].z));
+        CHECK(isfinite(e->row[i].vx) && isfinite(e->row[i].vy) && isfinite(e->row[i].vz));
+        CHECK(isfinite(e->row[i].heading) && isfinite(e->row[i].pitch) && isfinite(e->row[i].roll));
+        CHECK(isfinite(e->row[i].spin_x) && isfinite(e->row[i].spin_y) &&
+              isfinite(e->row[i].spin_z));
+        CHECK(e->row[i].kind < view.world.counts.kinds && e->row[i].damage <= DAMAGE_DESTROYED);
     }
 }
 

@@ -50,9 +50,9 @@ static void make_world(const struct scenario *scenario)
     CHECK(layout_compute(&layout, &header) == 0);
     CHECK(built.used == scenario->settings->params.initial_entities);
     for (uint32_t i = 0; i < built.used; i++) {
-        CHECK(built.first.x[i] >= 0.0 && built.first.x[i] <= WORLD_SIDE_DEFAULT_M);
-        CHECK(built.first.z[i] >= 0.0 && built.first.z[i] <= WORLD_SIDE_DEFAULT_M);
-        CHECK(built.first.y[i] >= -1e5 && built.first.y[i] <= 1e5);
+        CHECK(built.first.row[i].x >= 0.0 && built.first.row[i].x <= WORLD_SIDE_DEFAULT_M);
+        CHECK(built.first.row[i].z >= 0.0 && built.first.row[i].z <= WORLD_SIDE_DEFAULT_M);
+        CHECK(built.first.row[i].y >= -1e5 && built.first.row[i].y <= 1e5);
     }
     world_build_free(&built);
 }

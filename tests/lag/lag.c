@@ -134,7 +134,7 @@ static float look(const struct lag *lag, uint64_t *commit)
     do {
         *commit = segment_load(&lag->view.commit->commit);
         const struct entities *e = &lag->view.w[*commit & 1].entities;
-        value = lag->spacemouse ? e->steer[lag->row] : e->throttle[lag->row];
+        value = lag->spacemouse ? e->row[lag->row].steer : e->row[lag->row].throttle;
         atomic_thread_fence(memory_order_acquire);
     } while (segment_load(&lag->view.commit->commit) != *commit);
     return value;
@@ -246,7 +246,7 @@ int main(int argc, char **argv)
     start(&lag);
     uint64_t until_ns = clock_now_ns() + START_NS;
     while (clock_now_ns() < until_ns &&
-           lag.view.w[commit & 1].entities.behaviour[lag.row] != BEHAVIOUR_DRIVEN) {
+           lag.view.w[commit & 1].entities.row[lag.row].behaviour != BEHAVIOUR_DRIVEN) {
         drain(&lag);
         clock_sleep_until_ns(clock_now_ns() + 20 * (uint64_t)NS_PER_MS);
     }

@@ -232,25 +232,26 @@ uint32_t fixture_put(struct fixture *fixture, struct fixture_entity entity)
     entities_clear(e, row);
     entities_set_position(e, row, entity.at);
     entities_set_velocity(e, row, v);
-    e->heading[row] =
+    e->row[row].heading =
         v.x != 0.0 || v.z != 0.0 ? maths_heading(v.x, v.z) : maths_wrap_turn(entity.heading_rad);
-    e->id[row] = row + 1;
-    e->kind[row] = kind_index;
-    e->state[row] = ENTITY_ACTIVE;
-    e->force[row] = (uint8_t)entity.force;
-    e->behaviour[row] = (uint8_t)(entity.behaviour != BEHAVIOUR_IDLE ? entity.behaviour
-                                  : round                            ? BEHAVIOUR_FLIGHT
-                                                                     : BEHAVIOUR_HOLD);
-    e->order[row] = e->behaviour[row];
-    e->goal_x[row] = entity.at.x;
-    e->goal_z[row] = entity.at.z;
-    e->fuel_l[row] = kind->fuel_l;
-    e->rounds[row] = kind->rounds;
-    e->owner_slot[row] = entity.owner_slot;
-    e->owner_id[row] = entity.owner_id;
-    e->born_tick[row] = (uint32_t)head->tick;
+    e->row[row].id = row + 1;
+    e->row[row].kind = kind_index;
+    e->row[row].state = ENTITY_ACTIVE;
+    e->row[row].force = (uint8_t)entity.force;
+    e->row[row].behaviour = (uint8_t)(entity.behaviour != BEHAVIOUR_IDLE ? entity.behaviour
+                                      : round                            ? BEHAVIOUR_FLIGHT
+                                                                         : BEHAVIOUR_HOLD);
+    e->row[row].order = e->row[row].behaviour;
+    e->row[row].goal_x = entity.at.x;
+    e->row[row].goal_z = entity.at.z;
+    e->row[row].fuel_l = kind->fuel_l;
+    e->row[row].rounds = kind->rounds;
+    e->row[row].owner_slot = entity.owner_slot;
+    e->row[row].owner_id = entity.owner_id;
+    e->row[row].born_tick = (uint32_t)head->tick;
     if (round)
-        e->until_tick[row] = (uint32_t)(head->tick + (uint64_t)(kind->life_s * world->params->hz));
+        e->row[row].until_tick =
+            (uint32_t)(head->tick + (uint64_t)(kind->life_s * world->params->hz));
     head->used++;
     head->next_id++;
     head->alloc_next = head->used;

@@ -60,8 +60,8 @@ bool map_stage_shows(const struct map_stage *stage, const struct image *image,
                      const struct map_view *view, uint32_t slot)
 {
     const struct entities *e = &stage->state.entities;
-    struct rgba colour = symbol_colour((enum force)e->force[slot]);
-    struct point at = map_point(view, e->x[slot], e->z[slot]);
+    struct rgba colour = symbol_colour((enum force)e->row[slot].force);
+    struct point at = map_point(view, e->row[slot].x, e->row[slot].z);
     /* The centre of a small symbol may lie between pixels, so the four pixels around it are tried.
      */
     for (int32_t i = 0; i < 4; i++) {

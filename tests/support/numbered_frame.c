@@ -20,8 +20,8 @@ void numbered_frame_fill(struct state_head *head, struct entities *entities, uin
     head->event_digest = value_of(frame, rows);
     head->tally.spawns_refused = frame;
     for (uint32_t i = 0; i < rows; i++) {
-#define X(type, name) entities->name[i] = (type)(value_of(frame, i) & 0xffff);
-        ENTITY_COLUMNS(X)
+#define X(type, name) entities->row[i].name = (type)(value_of(frame, i) & 0xffff);
+        ENTITY_FIELDS(X)
 #undef X
     }
 }
@@ -40,9 +40,9 @@ bool numbered_frame_rows(const struct state_head *head, const struct entities *e
         return true;
     for (uint32_t i = 0; i < head->used; i++) {
 #define X(type, name)                                                                              \
-    if (entities->name[i] != (type)(value_of(head->frame, i) & 0xffff))                            \
+    if (entities->row[i].name != (type)(value_of(head->frame, i) & 0xffff))                        \
         return false;
-        ENTITY_COLUMNS(X)
+        ENTITY_FIELDS(X)
 #undef X
     }
     return true;

@@ -22,7 +22,7 @@ uint32_t remotes_row(const struct fixture *fixture, uint64_t remote)
 {
     const struct state state = fixture_state(fixture);
     for (uint32_t row = 0; row < state.head->used; row++) {
-        if (remote_is(&state.entities, row) && state.entities.driver[row] == remote)
+        if (remote_is(&state.entities, row) && state.entities.row[row].driver == remote)
             return row;
     }
     return SLOT_NONE;

@@ -22,7 +22,7 @@ struct scene_stage *scene_stage_new(uint32_t capacity, uint32_t fixed)
     s->reach_start = calloc(GRIDSQUARES_DEFAULT.count + 1, sizeof *s->reach_start);
     s->fixed = calloc(fixed, sizeof *s->fixed);
     s->fixed_damage = calloc(fixed, 1);
-    s->columns = aligned_alloc(COLUMN_ALIGN, entities_bytes(capacity));
+    s->columns = aligned_alloc(TABLE_ALIGN, entities_bytes(capacity));
     assert_true(s->posts && s->cover && s->reach_start && s->fixed && s->fixed_damage &&
                 s->columns);
     memset(s->columns, 0, entities_bytes(capacity));
@@ -43,13 +43,13 @@ uint32_t scene_stage_put(struct scene_stage *stage, uint16_t kind, double x, dou
 {
     uint32_t slot = stage->head.used++;
     const struct entities *e = &stage->entities;
-    e->id[slot] = slot + 1;
-    e->state[slot] = ENTITY_ACTIVE;
-    e->kind[slot] = kind;
-    e->force[slot] = FORCE_BLUE;
-    e->x[slot] = x;
-    e->z[slot] = z;
-    e->heading[slot] = heading;
+    e->row[slot].id = slot + 1;
+    e->row[slot].state = ENTITY_ACTIVE;
+    e->row[slot].kind = kind;
+    e->row[slot].force = FORCE_BLUE;
+    e->row[slot].x = x;
+    e->row[slot].z = z;
+    e->row[slot].heading = heading;
     return slot;
 }
 

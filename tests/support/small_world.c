@@ -42,7 +42,7 @@ void small_world_begin(struct small_world *w, uint32_t rows, uint32_t fixed)
     w->fixed = calloc(fixed + 1, sizeof *w->fixed);
     w->damage = calloc(fixed + 1, sizeof *w->damage);
     w->path = calloc(rows, sizeof *w->path);
-    w->memory = aligned_alloc(COLUMN_ALIGN, entities_bytes(rows));
+    w->memory = aligned_alloc(TABLE_ALIGN, entities_bytes(rows));
     assert_true(w->fixed && w->damage && w->path && w->memory);
     entities_bind(&w->e, rows, w->memory);
     w->world = (struct world){.params = w->params,
@@ -84,10 +84,10 @@ uint32_t small_world_row(struct small_world *w, enum small_kind kind, struct vec
     uint32_t row = w->rows++;
     assert_true(row < w->params->capacity);
     entities_clear(&w->e, row);
-    w->e.id[row] = row + 1;
-    w->e.kind[row] = (uint16_t)kind;
-    w->e.state[row] = ENTITY_ACTIVE;
-    w->e.behaviour[row] = kind == SMALL_ROUND ? BEHAVIOUR_FLIGHT : BEHAVIOUR_HOLD;
+    w->e.row[row].id = row + 1;
+    w->e.row[row].kind = (uint16_t)kind;
+    w->e.row[row].state = ENTITY_ACTIVE;
+    w->e.row[row].behaviour = kind == SMALL_ROUND ? BEHAVIOUR_FLIGHT : BEHAVIOUR_HOLD;
     small_world_move(w, row, at, along);
     return row;
 }

@@ -151,7 +151,7 @@ uint32_t steps_put(struct fixture *fixture, const char *kind, struct vec3 at, en
         fixture, (struct fixture_entity){
                      .kind = kind, .at = at, .force = force, .behaviour = BEHAVIOUR_HOLD});
     struct entities e = steps_rows(fixture);
-    e.behaviour[row] = e.order[row] = (uint8_t)behaviour;
+    e.row[row].behaviour = e.row[row].order = (uint8_t)behaviour;
     return row;
 }
 
@@ -170,15 +170,15 @@ uint32_t steps_put_driving(struct fixture *fixture, const char *kind, double x, 
 void steps_threaten(const struct fixture *fixture, uint32_t row, uint32_t by)
 {
     struct entities e = steps_rows(fixture);
-    e.threat_slot[row] = by;
-    e.threat_id[row] = e.id[by];
+    e.row[row].threat_slot = by;
+    e.row[row].threat_id = e.row[by].id;
 }
 
 void steps_target(const struct fixture *fixture, uint32_t row, uint32_t target)
 {
     struct entities e = steps_rows(fixture);
-    e.target_slot[row] = target;
-    e.target_id[row] = e.id[target];
+    e.row[row].target_slot = target;
+    e.row[row].target_id = e.row[target].id;
 }
 
 void steps_empty(struct fixture *fixture)
@@ -217,7 +217,7 @@ void steps_drive(struct fixture *fixture, uint32_t row, double throttle, double 
 {
     struct event_command answer =
         steps_command(fixture, (struct command){.type = COMMAND_DRIVE,
-                                                .entity = steps_rows(fixture).id[row],
+                                                .entity = steps_rows(fixture).row[row].id,
                                                 .value = {throttle, steer, climb}});
     assert_int_equal(answer.result, COMMAND_DONE);
 }
@@ -227,7 +227,7 @@ void steps_pedals(struct fixture *fixture, uint32_t row, double throttle, double
 {
     struct event_command answer =
         steps_command(fixture, (struct command){.type = COMMAND_DRIVE,
-                                                .entity = steps_rows(fixture).id[row],
+                                                .entity = steps_rows(fixture).row[row].id,
                                                 .force = (uint16_t)gear,
                                                 .value = {throttle, 0.0, 0.0, 0.0, 0.0, brake}});
     assert_int_equal(answer.result, COMMAND_DONE);
@@ -239,12 +239,13 @@ void steps_aim(const struct fixture *fixture, uint32_t row, uint32_t target)
     const struct kind *kinds = fixture->view.world.kinds;
     const struct step_context context = {.world = &fixture->view.world,
                                          .firing_tables = fixture->stepper.mover.firing_tables};
-    struct mat3 body = rotation_matrix(rotation_of(e.heading[row], e.pitch[row], e.roll[row]));
+    struct mat3 body =
+        rotation_matrix(rotation_of(e.row[row].heading, e.row[row].pitch, e.row[row].roll));
     struct vec3 lead = turret_lead(&context, turret_muzzle(&context, &e, row),
-                                   kinds[e.kind[row]].munition, &e, target);
+                                   kinds[e.row[row].kind].munition, &e, target);
     lead = rotation_back(&body, lead);
-    e.turret[row] = (float)maths_atan2(lead.z, lead.x);
-    e.gun[row] = (float)maths_atan2(lead.y, sqrt(lead.x * lead.x + lead.z * lead.z));
+    e.row[row].turret = (float)maths_atan2(lead.z, lead.x);
+    e.row[row].gun = (float)maths_atan2(lead.y, sqrt(lead.x * lead.x + lead.z * lead.z));
 }
 
 /* --- the middle of a frame ---------------------------------------------------------------------*/
@@ -257,11 +258,11 @@ void steps_serial_context(struct fixture *fixture, struct step_context *step,
     *step = mover_context(&fixture->stepper.mover, committed, &view->m);
     *view->m.head = *committed->head;
     entities_copy(&view->m.entities, &committed->entities, 0, committed->head->used);
-    *context = (struct serial_context){.step = step,
-                                       .moved = &view->m,
-                                       .writer = {&view->m.entities, fixture->stepper.mover.changed,
-                                                  fixture->stepper.mover.resting.resting},
-                                       .remotes = &fixture->stepper.mover.remotes};
+    *context = (struct serial_context){
+        .step = step,
+        .moved = &view->m,
+        .writer = {&view->m.entities, fixture->stepper.mover.resting.resting, view->m.written},
+        .remotes = &fixture->stepper.mover.remotes};
 }
 
 void steps_respond(struct fixture *fixture, struct response_context *context)
@@ -291,6 +292,13 @@ void steps_respond(struct fixture *fixture, struct response_context *context)
     contact_queue_begin(&collider->contacts, collider->broad.list, THREAD_POOL_MAX);
 }
 
+void steps_replace(struct fixture *fixture, struct response_context *context, uint32_t row,
+                   uint32_t id)
+{
+    context->next->entities.row[row].id = id;
+    fixture->stepper.collider.fresh[row / 64] |= (uint64_t)1 << row % 64;
+}
+
 void steps_respond_end(struct response_context *context)
 {
     contact_queue_end(context->contacts);
@@ -301,10 +309,7 @@ void steps_respond_end(struct response_context *context)
 
 static uint64_t hash_rows(uint64_t hash, const struct entities *e, uint32_t used)
 {
-#define X(type, name) hash = XXH3_64bits_withSeed(e->name, used * sizeof(type), hash);
-    ENTITY_COLUMNS(X)
-#undef X
-    return hash;
+    return XXH3_64bits_withSeed(e->row, used * sizeof *e->row, hash);
 }
 
 uint64_t steps_moved_hash(const struct fixture *fixture)
@@ -363,7 +368,8 @@ double steps_off_the_ground(const struct fixture *fixture, uint32_t count)
     const struct entities *e = &now.entities;
     double worst = 0.0;
     for (uint32_t i = 0; i < count; i++)
-        worst = maths_max(worst, fabs(e->y[i] - steps_ground_at(fixture, e->x[i], e->z[i])));
+        worst = maths_max(worst,
+                          fabs(e->row[i].y - steps_ground_at(fixture, e->row[i].x, e->row[i].z)));
     return worst;
 }
 

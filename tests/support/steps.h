@@ -95,6 +95,10 @@ void steps_serial_context(struct fixture *fixture, struct step_context *step,
 /* Prepares the collider's response in the next frame. The next buffer is a copy of the committed
  * one, all rows are at rest and there are no contacts. Free with steps_respond_end(). */
 void steps_respond(struct fixture *fixture, struct response_context *context);
+
+/* Makes what a row of this frame holds another body than that of the committed frame. */
+void steps_replace(struct fixture *fixture, struct response_context *context, uint32_t row,
+                   uint32_t id);
 void steps_respond_end(struct response_context *context);
 
 /* Returns the horizontal gap between two rows as they stand in a table, below 0 for an overlap [m].

@@ -1,6 +1,6 @@
 /* How a vehicle cruises: it moves for many frames at once (docs/decisions/049-cruising.md).
  *
- * A vehicle that goes on as it did is moved by a whole stretch of half a second. Its columns then
+ * A vehicle that goes on as it did is moved by a whole stretch of half a second. Its fields then
  * hold where it is at the end of the stretch, which cruise_tick names, and nothing writes to its
  * row before that. Where it is at a tick on the way follows from the row: it turns and gains speed
  * evenly, so it is on an arc. Height, pitch and roll of a land vehicle are those of the ground
@@ -32,10 +32,10 @@ static inline uint32_t cruise_frames(double dt_s)
     return frames < 2.0 ? 1u : (uint32_t)(frames + 0.5);
 }
 
-/* Returns true if the row's columns hold where it is after this tick. */
+/* Returns true if the row's fields hold where it is after this tick. */
 static inline bool cruise_goes(const struct entities *e, uint32_t i, uint64_t tick)
 {
-    return e->cruise_tick[i] > tick;
+    return e->row[i].cruise_tick > tick;
 }
 
 /* Returns the length of the chord of an arc of this length that turns by twice half_rad, which is
@@ -69,7 +69,7 @@ static inline double cruise_off(double rps, double mps2, double left_s)
 /* Returns the time from the tick to the end of the stretch [s]; 0 without one. */
 static inline double cruise_left_s(const struct entities *e, uint32_t i, uint64_t tick, double dt_s)
 {
-    return cruise_goes(e, i, tick) ? (double)(e->cruise_tick[i] - tick) * dt_s : 0.0;
+    return cruise_goes(e, i, tick) ? (double)(e->row[i].cruise_tick - tick) * dt_s : 0.0;
 }
 
 /* Returns where the row is at the tick, on its arc. The height is between those of the ends: the
@@ -77,17 +77,17 @@ static inline double cruise_left_s(const struct entities *e, uint32_t i, uint64_
 static inline struct vec3 cruise_position(const struct entities *e, uint32_t i, uint64_t tick,
                                           double dt_s)
 {
-    struct vec3 at = {e->x[i], e->y[i], e->z[i]};
+    struct vec3 at = {e->row[i].x, e->row[i].y, e->row[i].z};
     double left_s = cruise_left_s(e, i, tick, dt_s), sine, cosine;
     if (!(left_s > 0.0))
         return at;
-    maths_sincos(e->heading[i], &sine, &cosine);
-    double forward_mps = e->vx[i] * sine - e->vz[i] * cosine;
-    double half_rad = 0.5 * e->cruise_rps[i] * left_s, way_m;
-    way_m = cruise_chord((forward_mps - 0.5 * e->cruise_mps2[i] * left_s) * left_s, half_rad);
-    maths_sincos(e->heading[i] - half_rad, &sine, &cosine);
+    maths_sincos(e->row[i].heading, &sine, &cosine);
+    double forward_mps = e->row[i].vx * sine - e->row[i].vz * cosine;
+    double half_rad = 0.5 * e->row[i].cruise_rps * left_s, way_m;
+    way_m = cruise_chord((forward_mps - 0.5 * e->row[i].cruise_mps2 * left_s) * left_s, half_rad);
+    maths_sincos(e->row[i].heading - half_rad, &sine, &cosine);
     at.x -= way_m * sine;
-    at.y -= (e->vy[i] - 0.5 * (double)e->cruise_climb_mps2[i] * left_s) * left_s;
+    at.y -= (e->row[i].vy - 0.5 * (double)e->row[i].cruise_climb_mps2 * left_s) * left_s;
     at.z += way_m * cosine;
     return at;
 }
@@ -97,25 +97,25 @@ static inline double cruise_heading(const struct entities *e, uint32_t i, uint64
                                     double dt_s)
 {
     double left_s = cruise_left_s(e, i, tick, dt_s);
-    return left_s > 0.0 ? maths_wrap_turn(e->heading[i] - e->cruise_rps[i] * left_s)
-                        : e->heading[i];
+    return left_s > 0.0 ? maths_wrap_turn(e->row[i].heading - e->row[i].cruise_rps * left_s)
+                        : e->row[i].heading;
 }
 
 /* Returns how fast the row climbs so long before the end of its stretch [m/s]. */
 static inline double cruise_climb(const struct entities *e, uint32_t i, double left_s)
 {
-    return e->vy[i] - (double)e->cruise_climb_mps2[i] * left_s;
+    return e->row[i].vy - (double)e->row[i].cruise_climb_mps2 * left_s;
 }
 
 /* Return how an aircraft leans at the tick [rad]. */
 static inline double cruise_pitch(const struct entities *e, uint32_t i, uint64_t tick, double dt_s)
 {
-    return e->pitch[i] - (double)e->cruise_pitch_rps[i] * cruise_left_s(e, i, tick, dt_s);
+    return e->row[i].pitch - (double)e->row[i].cruise_pitch_rps * cruise_left_s(e, i, tick, dt_s);
 }
 
 static inline double cruise_roll(const struct entities *e, uint32_t i, uint64_t tick, double dt_s)
 {
-    return e->roll[i] - (double)e->cruise_roll_rps[i] * cruise_left_s(e, i, tick, dt_s);
+    return e->row[i].roll - (double)e->row[i].cruise_roll_rps * cruise_left_s(e, i, tick, dt_s);
 }
 
 /* Returns the velocity of the row at the tick [m/s]. */
@@ -126,9 +126,9 @@ static inline struct vec3 cruise_velocity(const struct entities *e, uint32_t i, 
     double left_s = cruise_left_s(e, i, tick, dt_s), sine, cosine;
     if (!(left_s > 0.0))
         return velocity;
-    maths_sincos(e->heading[i], &sine, &cosine);
-    double forward_mps = velocity.x * sine - velocity.z * cosine - e->cruise_mps2[i] * left_s;
-    maths_sincos(e->heading[i] - e->cruise_rps[i] * left_s, &sine, &cosine);
+    maths_sincos(e->row[i].heading, &sine, &cosine);
+    double forward_mps = velocity.x * sine - velocity.z * cosine - e->row[i].cruise_mps2 * left_s;
+    maths_sincos(e->row[i].heading - e->row[i].cruise_rps * left_s, &sine, &cosine);
     return (struct vec3){forward_mps * sine, cruise_climb(e, i, left_s), -forward_mps * cosine};
 }
 

@@ -16,8 +16,8 @@ static inline bool decoy_due(const struct entities *entities, uint32_t target, s
                              struct vec3 closing, double within_s)
 {
     double near = -vec3_dot(to, closing) * within_s;
-    return entities->state[target] == ENTITY_ACTIVE &&
-           entities->behaviour[target] != BEHAVIOUR_HOLD && vec3_dot(to, to) <= near;
+    return entities->row[target].state == ENTITY_ACTIVE &&
+           entities->row[target].behaviour != BEHAVIOUR_HOLD && vec3_dot(to, to) <= near;
 }
 
 #endif

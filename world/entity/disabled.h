@@ -22,15 +22,15 @@ static inline bool disabled_is_armoured(const struct kind *kind)
 /* Returns true if the vehicle cannot drive. kind: the row's. */
 static inline bool disabled_drive(const struct kind *kind, const struct entities *e, uint32_t row)
 {
-    return e->damage[row] >= DAMAGE_MED && !(e->flags[row] & ENTITY_FLAG_DISARMED) &&
+    return e->row[row].damage >= DAMAGE_MED && !(e->row[row].flags & ENTITY_FLAG_DISARMED) &&
            disabled_is_armoured(kind);
 }
 
 /* Returns true if the vehicle can neither lay its gun nor fire. */
 static inline bool disabled_gun(const struct kind *kind, const struct entities *e, uint32_t row)
 {
-    return (e->damage[row] >= DAMAGE_HIGH ||
-            (e->damage[row] >= DAMAGE_MED && e->flags[row] & ENTITY_FLAG_DISARMED)) &&
+    return (e->row[row].damage >= DAMAGE_HIGH ||
+            (e->row[row].damage >= DAMAGE_MED && e->row[row].flags & ENTITY_FLAG_DISARMED)) &&
            disabled_is_armoured(kind);
 }
 

@@ -1,8 +1,11 @@
-/* Entities: vehicles and munitions as a structure of arrays.
+/* Entities: vehicles and munitions as rows of a table.
  *
- * The same columns make up each of the world's two buffers (written by the collider alone) and the
- * moved table (written by the mover alone). A slot is a row. Slots are used again, ids never are: a
- * reference is (slot, id), and it is void when id[slot] differs. Id 0 is no entity. */
+ * Each of the world's two buffers (written by the collider alone) and the moved table (written by
+ * the mover alone) is such a table. A slot is a row. Slots are used again, ids never are: a
+ * reference is (slot, id), and it is void when the id of the row differs. Id 0 is no entity.
+ *
+ * A frame touches few rows, and of these nearly all fields: so a row lies in one place
+ * (docs/decisions/053-rows.md). */
 #ifndef JOLON_WORLD_ENTITY_ENTITY_H
 #define JOLON_WORLD_ENTITY_ENTITY_H
 
@@ -15,11 +18,11 @@
 #define SLOT_NONE       UINT32_MAX
 #define CAPACITY_MAX    1048576u
 #define CAPACITY_MIN    16u
-#define COLUMN_ALIGN    64u
+#define TABLE_ALIGN     64u
 #define ENTITY_NAME_MAX 24u
 
 enum entity_state {
-    ENTITY_FREE,   /* the slot is empty; its other columns mean nothing */
+    ENTITY_FREE,   /* the slot is empty; its other fields mean nothing */
     ENTITY_ACTIVE, /* moves by its behaviour */
     ENTITY_WRECK,  /* destroyed; tumbles to rest and stays, an obstacle */
     ENTITY_STATE_COUNT
@@ -49,86 +52,88 @@ enum force { FORCE_NEUTRAL, FORCE_BLUE, FORCE_RED, FORCE_COUNT };
 /* Damage of anything, fixed or moving (thesis rows 27, 33). */
 enum damage { DAMAGE_NONE, DAMAGE_LOW, DAMAGE_MED, DAMAGE_HIGH, DAMAGE_DESTROYED, DAMAGE_COUNT };
 
-/* X(type, name) for every column: the state of the body, then the agent's memory. The mover writes
- * all of M. The collider writes all of W: it copies M and changes what collisions change: motion,
- * state, damage, harm_j, threat_*, bump*, touch_*, ENTITY_FLAG_BURST. */
-#define ENTITY_COLUMNS(X)                                                                          \
-    X(double, x)           /* [m] world frame: east; metres to better than 1e-10 */                \
-    X(double, y)           /* [m] up */                                                            \
-    X(double, z)           /* [m] south */                                                         \
-    X(double, vx)          /* [m/s] */                                                             \
-    X(double, vy)          /* [m/s] */                                                             \
-    X(double, vz)          /* [m/s] */                                                             \
-    X(double, heading)     /* [rad] clockwise from north, 0..2 pi */                               \
-    X(double, pitch)       /* [rad] nose up */                                                     \
-    X(double, roll)        /* [rad] right side down */                                             \
-    X(double, spin_x)      /* [rad/s, world axes] by collisions, without steering */               \
-    X(double, spin_y)      /* [rad/s] */                                                           \
-    X(double, spin_z)      /* [rad/s] */                                                           \
-    X(double, harm_j)      /* [J] energy absorbed; destroyed at the kind's resistance_j */         \
-    X(double, goal_x)      /* [m] the behaviour's destination */                                   \
-    X(double, goal_z)      /* [m] */                                                               \
-    X(double, fuel_l)      /* [l] */                                                               \
-    X(double, cruise_rps)  /* [rad/s] by which it turns while it cruises (cruise.h) */             \
-    X(double, cruise_mps2) /* [m/s2] by which it gains speed then, along its heading */            \
-    X(float, throttle)     /* -1..1, by its driver or its agent */                                 \
-    X(float, steer)        /* -1..1, by its driver or its agent: right */                          \
-    X(float, climb)        /* -1..1, when driven: up (aircraft), hand brake (land, above 0) */     \
-    X(float, brake)        /* 0..1, when driven */                                                 \
-    X(float, traverse)     /* -1..1, when driven: turret to the right */                           \
-    X(float, elevate)      /* -1..1, when driven: gun up */                                        \
-    X(float, turret)       /* [rad] clockwise off the heading, -pi..pi */                          \
-    X(float, gun)          /* [rad] up off the body's own plane */                                 \
-    X(float, dodge)        /* [rad] to the right of its goal, around obstacles; when driven: */    \
-                           /* -1..1, where the steering wheel of a land vehicle is; 0..1, how */   \
-                           /* far the engine of an aircraft is below its full power (spool.h) */   \
-    X(float, ease)         /* 0..1: share of its speed that it gives up for obstacles ahead */     \
-    X(float, bump_heading) /* [rad] away from the obstacle that it ran into */                     \
-    X(float, cruise_climb_mps2) /* [m/s2] by which an aircraft's climb grows while it cruises */   \
-    X(float, cruise_pitch_rps)  /* [rad/s] by which its pitch and its roll grow then */            \
-    X(float, cruise_roll_rps)                                                                      \
-    X(uint64_t, driver) /* the one source of commands that drives it, until until_tick; 0: none */ \
+/* X(type, name) for every field, in the order in which they lie in a row: first what others ask of
+ * a row, in 96 bytes, then the rest of its motion, then the agent's memory. Doubles begin at
+ * multiples of 8 bytes. The mover writes all of M. The collider writes all of W: it copies M and
+ * changes what collisions change: motion, state, damage, harm_j, threat_*, bump*, touch_*,
+ * ENTITY_FLAG_BURST. */
+#define ENTITY_FIELDS(X)                                                                           \
+    X(double, x)             /* [m] world frame: east; metres to better than 1e-10 */              \
+    X(double, y)             /* [m] up */                                                          \
+    X(double, z)             /* [m] south */                                                       \
+    X(double, vx)            /* [m/s] */                                                           \
+    X(double, vy)            /* [m/s] */                                                           \
+    X(double, vz)            /* [m/s] */                                                           \
+    X(double, heading)       /* [rad] clockwise from north, 0..2 pi */                             \
+    X(double, cruise_rps)    /* [rad/s] by which it turns while it cruises (cruise.h) */           \
+    X(double, cruise_mps2)   /* [m/s2] by which it gains speed then, along its heading */          \
+    X(uint32_t, cruise_tick) /* when its stretch ends (cruise.h); past: it has none */             \
     X(uint32_t, id)                                                                                \
-    X(uint32_t, target_slot) /* what it attacks, flees, or homes on */                             \
-    X(uint32_t, target_id)                                                                         \
-    X(uint32_t, owner_slot) /* a munition's shooter; a vehicle's smoke (smoke.h) */                \
-    X(uint32_t, owner_id)                                                                          \
-    X(uint32_t, threat_slot) /* fired at it since its agent last decided */                        \
-    X(uint32_t, threat_id)                                                                         \
-    X(uint32_t, until_tick)  /* when the behaviour, or a munition's life, ends; a wreck rests */   \
-    X(uint32_t, reload_tick) /* when it may fire again */                                          \
-    X(uint32_t, seen_tick)   /* when it last saw its target */                                     \
-    X(uint32_t, born_tick)                                                                         \
-    X(uint32_t, changed_tick) /* when its damage last grew; for fire and smoke */                  \
-    X(uint32_t, cruise_tick)  /* when its stretch ends (cruise.h); past: it has none */            \
-    X(uint32_t, jolt_tick)    /* when its chassis was last disturbed, while ENTITY_FLAG_CHASSIS */ \
-    X(uint32_t, order_arg)    /* its area (patrol), route, formation or script */                  \
-    X(uint32_t, leg)          /* its next route point or step of its script */                     \
-    X(uint32_t, rounds)                                                                            \
     X(uint16_t, kind)                                                                              \
     X(uint8_t, state)                                                                              \
-    X(uint8_t, force)                                                                              \
     X(uint8_t, behaviour)                                                                          \
-    X(uint8_t, order)   /* the behaviour it goes back to */                                        \
-    X(uint8_t, damage)  /* enum damage */                                                          \
+    X(uint8_t, force)                                                                              \
+    X(uint8_t, flags)           /* ENTITY_FLAG_* */                                                \
+    X(uint8_t, damage)          /* enum damage */                                                  \
+    X(uint8_t, order)           /* the behaviour it goes back to */                                \
+    X(float, cruise_climb_mps2) /* [m/s2] by which an aircraft's climb grows while it cruises */   \
+    X(float, turret)            /* [rad] clockwise off the heading, -pi..pi */                     \
+    X(double, pitch)            /* [rad] nose up */                                                \
+    X(double, roll)             /* [rad] right side down */                                        \
+    X(float, gun)               /* [rad] up off the body's own plane */                            \
+    X(float, cruise_pitch_rps)  /* [rad/s] by which its pitch and its roll grow then */            \
+    X(float, cruise_roll_rps)                                                                      \
+    X(float, throttle)       /* -1..1, by its driver or its agent */                               \
+    X(double, spin_x)        /* [rad/s, world axes] by collisions, without steering */             \
+    X(double, spin_y)        /* [rad/s] */                                                         \
+    X(double, spin_z)        /* [rad/s] */                                                         \
+    X(double, harm_j)        /* [J] energy absorbed; destroyed at the kind's resistance_j */       \
+    X(double, goal_x)        /* [m] the behaviour's destination */                                 \
+    X(double, goal_z)        /* [m] */                                                             \
+    X(double, fuel_l)        /* [l] */                                                             \
+    X(float, steer)          /* -1..1, by its driver or its agent: right */                        \
+    X(uint32_t, target_slot) /* what it attacks, flees, or homes on */                             \
+    X(uint32_t, target_id)                                                                         \
+    X(uint32_t, threat_slot) /* fired at it since its agent last decided */                        \
+    X(uint32_t, threat_id)                                                                         \
+    X(uint32_t, until_tick)   /* when the behaviour, or a munition's life, ends; a wreck rests */  \
+    X(uint32_t, reload_tick)  /* when it may fire again */                                         \
+    X(uint32_t, seen_tick)    /* when it last saw its target */                                    \
+    X(uint32_t, changed_tick) /* when its damage last grew; for fire and smoke */                  \
+    X(uint32_t, jolt_tick)    /* when its chassis was last disturbed, while ENTITY_FLAG_CHASSIS */ \
+    X(float, dodge)           /* [rad] to the right of its goal, around obstacles; when driven: */ \
+    /* -1..1, where the steering wheel of a land vehicle is; 0..1, how */                          \
+    /* far the engine of an aircraft is below its full power (spool.h) */                          \
+    X(float, ease)          /* 0..1: share of its speed that it gives up for obstacles ahead */    \
+    X(float, bump_heading)  /* [rad] away from the obstacle that it ran into */                    \
+    X(uint32_t, order_arg)  /* its area (patrol), route, formation or script */                    \
+    X(uint32_t, leg)        /* its next route point or step of its script */                       \
+    X(uint32_t, owner_slot) /* a munition's shooter; a vehicle's smoke (smoke.h) */                \
+    X(uint64_t, driver)     /* the one source of commands that drives it, until until_tick; 0 */   \
+    X(uint32_t, owner_id)                                                                          \
+    X(uint32_t, born_tick)                                                                         \
+    X(uint32_t, rounds)                                                                            \
+    X(float, climb)     /* -1..1, when driven: up (aircraft), hand brake (land, above 0) */        \
+    X(float, brake)     /* 0..1, when driven */                                                    \
+    X(float, traverse)  /* -1..1, when driven: turret to the right */                              \
+    X(float, elevate)   /* -1..1, when driven: gun up */                                           \
     X(uint8_t, bumped)  /* 1: ran into something in this frame */                                  \
-    X(uint8_t, stalled) /* how long it has driven and not got on (mover/agent/progress.c) */       \
-    X(uint8_t, flags)   /* ENTITY_FLAG_* */                                                        \
-    X(uint8_t, trigger) /* of the mover: the row's requests in this frame */
+    X(uint8_t, trigger) /* of the mover: the row's requests in this frame */                       \
+    X(uint8_t, stalled) /* how long it has driven and not got on (mover/agent/progress.c) */
 
 /* clang-format off */
-enum entity_column {
-#define X(type, name) COLUMN_##name,
-    ENTITY_COLUMNS(X)
+enum entity_field {
+#define X(type, name) FIELD_##name,
+    ENTITY_FIELDS(X)
 #undef X
-    ENTITY_COLUMN_COUNT
+    ENTITY_FIELD_COUNT
 };
 /* clang-format on */
 
-/* Sets of columns. */
-#define COLUMN_BIT(name) ((uint64_t)1 << COLUMN_##name)
-#define COLUMNS_ALL      (UINT64_MAX >> (64 - ENTITY_COLUMN_COUNT))
-_Static_assert(ENTITY_COLUMN_COUNT <= 64, "a set of columns is one word");
+/* Sets of fields. */
+#define FIELD_BIT(name) ((uint64_t)1 << FIELD_##name)
+#define FIELDS_ALL      (UINT64_MAX >> (64 - ENTITY_FIELD_COUNT))
+_Static_assert(ENTITY_FIELD_COUNT <= 64, "a set of fields is one word");
 
 #define ENTITY_FLAG_FIRE_AT_WILL 1u /* engages all enemies that it sees */
 #define ENTITY_FLAG_HOLD_FIRE    2u /* never fires */
@@ -173,66 +178,88 @@ struct entity_name {
     char text[ENTITY_NAME_MAX];
 };
 
-struct entities {
-    uint32_t capacity;
-#define X(type, name) type *name;
-    ENTITY_COLUMNS(X)
+struct entity {
+#define X(type, name) type name;
+    ENTITY_FIELDS(X)
 #undef X
+    uint8_t unused; /* 0 */
 };
 
-/* Bytes of a table of capacity rows, each column on a boundary of COLUMN_ALIGN. */
+/* Words of 8 bytes of a row: it has no byte that belongs to no field, so rows are compared and
+ * hashed as they lie in memory. */
+#define ENTITY_WORDS 36u
+_Static_assert(sizeof(struct entity) == 8 * ENTITY_WORDS, "rows are hashed by words");
+
+struct entities {
+    uint32_t capacity;
+    struct entity *row;
+};
+
+/* Bytes of a table of capacity rows, up to the next boundary of TABLE_ALIGN. */
 size_t entities_bytes(uint32_t capacity);
 
-/* Bytes one row takes in one table. */
-size_t entities_row_bytes(void);
-
-/* Points the columns into base (aligned to COLUMN_ALIGN, entities_bytes() long). */
+/* Points the rows into base (aligned to TABLE_ALIGN, entities_bytes() long). */
 void entities_bind(struct entities *entities, uint32_t capacity, void *base);
 
-/* Copies rows first .. first + count - 1 of every column. */
+/* Copies rows first .. first + count - 1. */
 void entities_copy(const struct entities *to, const struct entities *from, uint32_t first,
                    uint32_t count);
 
-/* Sets row to zero in every column: a free slot. */
+/* Sets row to zero in every field: a free slot. */
 void entities_clear(const struct entities *entities, uint32_t row);
 
 /* Row of the entity with this id among the first used rows, SLOT_NONE when it is gone. */
 uint32_t entities_find(const struct entities *entities, uint32_t used, uint32_t id);
 
+/* Asks the processor for a row that is read or written soon, or for what others ask of one: whoever
+ * goes from row to row waits for memory otherwise. */
+static inline void entity_prefetch(const struct entity *row)
+{
+    for (size_t at = 0; at < sizeof *row; at += 64)
+        __builtin_prefetch((const unsigned char *)row + at);
+}
+
+static inline void entity_prefetch_pose(const struct entity *row)
+{
+    __builtin_prefetch(row);
+    __builtin_prefetch((const unsigned char *)row + 64);
+}
+
 static inline bool entities_alive(const struct entities *e, uint32_t slot, uint32_t id)
 {
-    return slot < e->capacity && id != 0 && e->id[slot] == id && e->state[slot] != ENTITY_FREE;
+    return slot < e->capacity && id != 0 && e->row[slot].id == id &&
+           e->row[slot].state != ENTITY_FREE;
 }
 
 static inline struct vec3 entities_position(const struct entities *e, uint32_t i)
 {
-    return (struct vec3){e->x[i], e->y[i], e->z[i]};
+    return (struct vec3){e->row[i].x, e->row[i].y, e->row[i].z};
 }
 
 static inline struct vec3 entities_velocity(const struct entities *e, uint32_t i)
 {
-    return (struct vec3){e->vx[i], e->vy[i], e->vz[i]};
+    return (struct vec3){e->row[i].vx, e->row[i].vy, e->row[i].vz};
 }
 
 /* Returns true if row i neither moves nor turns. */
 static inline bool entities_still(const struct entities *e, uint32_t i)
 {
-    return e->vx[i] == 0.0 && e->vy[i] == 0.0 && e->vz[i] == 0.0 && e->spin_x[i] == 0.0 &&
-           e->spin_y[i] == 0.0 && e->spin_z[i] == 0.0;
+    return e->row[i].vx == 0.0 && e->row[i].vy == 0.0 && e->row[i].vz == 0.0 &&
+           e->row[i].spin_x == 0.0 && e->row[i].spin_y == 0.0 && e->row[i].spin_z == 0.0;
 }
 
 static inline void entities_set_position(const struct entities *e, uint32_t i, struct vec3 p)
 {
-    e->x[i] = p.x;
-    e->y[i] = p.y;
-    e->z[i] = p.z;
+    e->row[i].x = p.x;
+    e->row[i].y = p.y;
+    e->row[i].z = p.z;
 }
 
 static inline void entities_set_velocity(const struct entities *e, uint32_t i, struct vec3 v)
 {
-    e->vx[i] = v.x;
-    e->vy[i] = v.y;
-    e->vz[i] = v.z;
+    e->row[i].vx = v.x;
+    e->row[i].vy = v.y;
+    e->row[i].vz = v.z;
 }
 
 #endif

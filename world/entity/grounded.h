@@ -8,9 +8,9 @@
 /* Returns true if row i, an active ship or aircraft, is on the ground. */
 static inline bool grounded_of(const struct entities *entities, const struct kind *kind, uint32_t i)
 {
-    return entities->state[i] == ENTITY_ACTIVE &&
+    return entities->row[i].state == ENTITY_ACTIVE &&
            (kind->domain == DOMAIN_SEA || kind->domain == DOMAIN_AIR) &&
-           (entities->flags[i] & ENTITY_FLAG_AGROUND) != 0;
+           (entities->row[i].flags & ENTITY_FLAG_AGROUND) != 0;
 }
 
 /* Returns the word for its state: aground, landed, or NULL if it is not on the ground. */

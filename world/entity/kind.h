@@ -31,7 +31,7 @@ enum drag_function { DRAG_NONE, DRAG_G1, DRAG_G7, DRAG_COUNT };
 enum delivery { DELIVERY_DIRECT, DELIVERY_ARC, DELIVERY_DROP };
 
 /* When a charge explodes: where it strikes, a moment later inside what it strikes, or in the air
- * over the point at which it was fired. The column flags of a round has its fuze. */
+ * over the point at which it was fired. The field flags of a round has its fuze. */
 enum fuze { FUZE_POINT, FUZE_DELAY, FUZE_AIR, FUZE_COUNT };
 
 /* The sides of a vehicle that its armour distinguishes. */

@@ -24,9 +24,9 @@ void remote_marking(const struct entities *e, uint32_t i, char marking[REMOTE_MA
     memset(marking, 0, REMOTE_MARKING_MAX + 1);
     if (!remote_is(e, i))
         return;
-    memcpy(marking, &e->leg[i], 4);
-    memcpy(marking + 4, &e->jolt_tick[i], 4);
-    memcpy(marking + 8, &e->target_slot[i], 4);
+    memcpy(marking, &e->row[i].leg, 4);
+    memcpy(marking + 4, &e->row[i].jolt_tick, 4);
+    memcpy(marking + 8, &e->row[i].target_slot, 4);
     for (unsigned k = 0; k < REMOTE_MARKING_MAX && marking[k] != '\0'; k++) {
         if (marking[k] < ' ' || marking[k] > '~') /* a log that anybody has written */
             marking[k] = '?';

@@ -132,15 +132,15 @@ static inline bool remote_is_record(uint32_t type)
  * munitions and no agent takes it for a vehicle. Ours have no driver. */
 static inline bool remote_is_munition(const struct entities *e, uint32_t i)
 {
-    return e->behaviour[i] == BEHAVIOUR_FLIGHT && e->driver[i] != 0;
+    return e->row[i].behaviour == BEHAVIOUR_FLIGHT && e->row[i].driver != 0;
 }
 
 static inline bool remote_is(const struct entities *e, uint32_t i)
 {
-    return e->behaviour[i] == BEHAVIOUR_REMOTE || remote_is_munition(e, i);
+    return e->row[i].behaviour == BEHAVIOUR_REMOTE || remote_is_munition(e, i);
 }
 
-/* A remote row has no agent and no driver, and a munition no target here, so it uses their columns:
+/* A remote row has no agent and no driver, and a munition no target here, so it uses their fields:
  *   driver                        remote_id()
  *   order_arg                     enum dead_reckoning_model | REMOTE_FLAG_* << REMOTE_FLAGS_SHIFT
  *   seen_tick                     when its last TRACK came
@@ -160,23 +160,24 @@ void remote_marking(const struct entities *e, uint32_t i, char marking[REMOTE_MA
 
 static inline struct vec3 remote_acceleration(const struct entities *e, uint32_t i)
 {
-    return (struct vec3){(double)e->climb[i], (double)e->traverse[i], (double)e->elevate[i]};
+    return (struct vec3){(double)e->row[i].climb, (double)e->row[i].traverse,
+                         (double)e->row[i].elevate};
 }
 
 static inline struct vec3 remote_drift(const struct entities *e, uint32_t i)
 {
-    return (struct vec3){e->goal_x[i], (double)e->ease[i], e->goal_z[i]};
+    return (struct vec3){e->row[i].goal_x, (double)e->row[i].ease, e->row[i].goal_z};
 }
 
 static inline struct vec3 remote_turn(const struct entities *e, uint32_t i)
 {
-    return (struct vec3){(double)e->steer[i], (double)e->brake[i], (double)e->dodge[i]};
+    return (struct vec3){(double)e->row[i].steer, (double)e->row[i].brake, (double)e->row[i].dodge};
 }
 
 /* Returns true if the row is corrected at the end of the step of this tick. */
 static inline bool remote_is_corrected(const struct entities *e, uint32_t i, uint32_t tick)
 {
-    return remote_is(e, i) && (int32_t)(e->until_tick[i] - tick) >= 0;
+    return remote_is(e, i) && (int32_t)(e->row[i].until_tick - tick) >= 0;
 }
 
 #endif

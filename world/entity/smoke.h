@@ -1,4 +1,4 @@
-/* The smoke grenades of armoured land vehicles. The column owner_slot of a vehicle, which only
+/* The smoke grenades of armoured land vehicles. The field owner_slot of a vehicle, which only
  * munitions need otherwise, is the frame in which it last fired them; 0: never. The mover asks
  * whether the smoke hides it, and pictures show it. Pure; any thread. */
 #ifndef JOLON_WORLD_ENTITY_SMOKE_H
@@ -16,9 +16,9 @@
 static inline double smoke_age_s(const struct entities *entities, const struct kind *kind,
                                  uint32_t i, uint64_t tick, double dt_s)
 {
-    if (entities->owner_slot[i] == 0 || kind->domain != DOMAIN_LAND)
+    if (entities->row[i].owner_slot == 0 || kind->domain != DOMAIN_LAND)
         return INFINITY;
-    return (double)((uint32_t)tick - entities->owner_slot[i]) * dt_s;
+    return (double)((uint32_t)tick - entities->row[i].owner_slot) * dt_s;
 }
 
 /* Returns true if the smoke of row i is between it and whatever is at this place relative to it

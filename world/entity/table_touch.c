@@ -1,4 +1,4 @@
-/* The pages of all columns. */
+/* The pages of rows. */
 #include "world/entity/table_touch.h"
 
 #include "world/entity/entity.h"
@@ -6,19 +6,12 @@
 
 #define MORE_ROWS 4096u
 
-static void take_pages(void *pages, size_t bytes, bool writes)
-{
-    if (writes)
-        prefault_shared(pages, bytes);
-    else
-        prefault_readable(pages, bytes);
-}
-
 void table_touch(const struct entities *entities, uint32_t rows, bool writes)
 {
-#define X(type, name) take_pages(entities->name, rows * sizeof(type), writes);
-    ENTITY_COLUMNS(X)
-#undef X
+    if (writes)
+        prefault_shared(entities->row, rows * sizeof *entities->row);
+    else
+        prefault_readable(entities->row, rows * sizeof *entities->row);
 }
 
 uint32_t table_touch_rows(uint32_t used, uint32_t capacity)

@@ -1,8 +1,7 @@
-/* Writes single cells of a table of rows and notes in which blocks of rows which columns were
- * written, so that their hashes are computed again (world/checksum.h). A block's word has a bit for
- * each column. Code that changes a row by these functions alone never names columns.
+/* Writes single fields of rows and notes which rows were written, so that these alone are copied
+ * and hashed again (world/checksum.h).
  *
- * Each function writes its cell and sets one bit. Not thread-safe: one writer a block. */
+ * Each function writes its field and sets one bit. Not thread-safe: one writer a word of bits. */
 #ifndef JOLON_WORLD_ENTITY_TABLE_WRITE_H
 #define JOLON_WORLD_ENTITY_TABLE_WRITE_H
 
@@ -17,30 +16,27 @@
 
 struct table_writer {
     const struct entities *entities;
-    uint64_t *changed; /* [CHECKSUM_BLOCKS] the columns written in each block */
     uint64_t *resting; /* a bit for each row, which is cleared when the row is written; or NULL */
-    uint64_t *written; /* a bit for each row, which is set when the row is written; or NULL */
+    uint64_t *written; /* a bit for each row, which is set when the row is written */
 };
 
-/* Notes that these columns of a row are written. */
-static inline void table_note(const struct table_writer *writer, uint32_t row, uint64_t columns)
+/* Notes that a row is written. Who writes fields itself, as that of a new row, says so by this. */
+static inline void table_note(const struct table_writer *writer, uint32_t row)
 {
-    writer->changed[row / CHECKSUM_ROWS] |= columns;
     if (writer->resting)
         writer->resting[row / 64] &= ~((uint64_t)1 << row % 64);
-    if (writer->written)
-        writer->written[row / 64] |= (uint64_t)1 << row % 64;
+    writer->written[row / 64] |= (uint64_t)1 << row % 64;
 }
 
-/* table_set_x(writer, row, x) and so on: one for each column. */
+/* table_set_x(writer, row, x) and so on: one for each field. */
 #define X(type, name)                                                                              \
     static inline void table_set_##name(const struct table_writer *writer, uint32_t row,           \
                                         type value)                                                \
     {                                                                                              \
-        table_note(writer, row, COLUMN_BIT(name));                                                 \
-        writer->entities->name[row] = value;                                                       \
+        table_note(writer, row);                                                                   \
+        writer->entities->row[row].name = value;                                                   \
     }
-ENTITY_COLUMNS(X)
+ENTITY_FIELDS(X)
 #undef X
 
 static inline void table_set_position(const struct table_writer *writer, uint32_t row,
@@ -83,17 +79,10 @@ static inline void table_set_threat(const struct table_writer *writer, uint32_t 
     table_set_threat_id(writer, row, id);
 }
 
-/* Notes that code which writes the cells itself, such as that of a new row, may change any column
- * of the row. */
-static inline void table_row_changes(const struct table_writer *writer, uint32_t row)
-{
-    table_note(writer, row, COLUMNS_ALL);
-}
-
-/* Sets the row to zero in every column: a free slot. */
+/* Sets the row to zero in every field: a free slot. */
 static inline void table_clear_row(const struct table_writer *writer, uint32_t row)
 {
-    table_row_changes(writer, row);
+    table_note(writer, row);
     entities_clear(writer->entities, row);
 }
 
@@ -101,7 +90,7 @@ static inline void table_clear_row(const struct table_writer *writer, uint32_t r
 static inline void table_copy_row(const struct table_writer *writer, const struct entities *from,
                                   uint32_t row)
 {
-    table_row_changes(writer, row);
+    table_note(writer, row);
     entities_copy(writer->entities, from, row, 1);
 }
 
@@ -111,7 +100,7 @@ static inline void table_copy_row(const struct table_writer *writer, const struc
 static inline void table_clear_unused(const struct entities *entities, uint32_t first, uint32_t end)
 {
     for (uint32_t row = first; row < end; row++) {
-        if (entities->id[row] != 0 || entities->state[row] != ENTITY_FREE)
+        if (entities->row[row].id != 0 || entities->row[row].state != ENTITY_FREE)
             entities_clear(entities, row);
     }
 }

@@ -9,7 +9,7 @@
 struct told_motion {
     struct vec3 at;                          /* [m] */
     struct vec3 velocity;                    /* [m/s] */
-    double heading_rad, pitch_rad, roll_rad; /* as the columns of an entity */
+    double heading_rad, pitch_rad, roll_rad; /* as the fields of an entity */
     float turn_rps, pitch_rps, roll_rps;     /* [rad/s] by which these change ... */
     float gain_mps2, climb_mps2; /* ... and the speed along the heading and the climb [m/s2] ... */
     float lasts_s;               /* ... for so long from now */

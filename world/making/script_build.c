@@ -107,7 +107,8 @@ static int check_paces(const struct copy *copy)
 {
     const struct scenario *scenario = copy->built->scenario;
     const struct entities *e = &copy->built->first;
-    double x = e->x[copy->slot] - copy->off_x, z = e->z[copy->slot] - copy->off_z, time_s = 0.0;
+    double x = e->row[copy->slot].x - copy->off_x, z = e->row[copy->slot].z - copy->off_z,
+           time_s = 0.0;
     bool known = true;
     for (uint32_t i = 0; i < copy->from->count; i++) {
         const struct scenario_step *from = &scenario->steps[copy->from->first + i];
@@ -225,7 +226,7 @@ static int copy_script(const struct copy *copy)
     }
     double last_s = link_dues(steps, script->count);
     script->period_s = script->repeats ? last_s : 0.0;
-    built->first.order_arg[copy->slot] = counts->scripts++;
+    built->first.row[copy->slot].order_arg = counts->scripts++;
     counts->script_steps += script->count;
     return check_paces(copy);
 }
@@ -239,14 +240,14 @@ static int give_scripts(struct copy *copy, uint32_t first)
     copy->from = &built->scenario->scripts[copy->group->script];
     for (uint32_t i = 0; i < count; i++) {
         copy->slot = first + i;
-        copy->off_x = e->x[first + i] - e->x[first];
-        copy->off_z = e->z[first + i] - e->z[first];
+        copy->off_x = e->row[first + i].x - e->row[first].x;
+        copy->off_z = e->row[first + i].z - e->row[first].z;
         if (copy_script(copy) != 0)
             return -1;
     }
     for (uint32_t f = 0; f < built->counts.formations; f++) {
         if (built->formations[f].first == first)
-            built->formations[f].order_arg = e->order_arg[first];
+            built->formations[f].order_arg = e->row[first].order_arg;
     }
     return 0;
 }

@@ -69,20 +69,21 @@ static void set_on_ground(const struct world_build *built, uint32_t slot)
 {
     const struct terrain terrain = world_build_terrain(built);
     const struct entities *e = &built->first;
-    const struct kind *kind = &built->scenario->kinds[e->kind[slot]];
+    const struct kind *kind = &built->scenario->kinds[e->row[slot].kind];
     double clear_y_m;
     struct rest_pose pose =
-        rest_pose_of(&terrain, NULL, kind, e->x[slot], e->z[slot], e->heading[slot]);
-    if (rest_pose_bends(&terrain, kind, e->x[slot], e->z[slot], e->heading[slot], &clear_y_m)) {
-        const struct mat3 level = rotation_matrix(rotation_of(e->heading[slot], 0.0, 0.0));
-        const struct vec3 at = {e->x[slot], clear_y_m, e->z[slot]};
+        rest_pose_of(&terrain, NULL, kind, e->row[slot].x, e->row[slot].z, e->row[slot].heading);
+    if (rest_pose_bends(&terrain, kind, e->row[slot].x, e->row[slot].z, e->row[slot].heading,
+                        &clear_y_m)) {
+        const struct mat3 level = rotation_matrix(rotation_of(e->row[slot].heading, 0.0, 0.0));
+        const struct vec3 at = {e->row[slot].x, clear_y_m, e->row[slot].z};
         double deep = vehicle_shell_depth(&terrain, NULL, kind, VEHICLE_SHELL_POINTS, at, &level);
         pose = (struct rest_pose){.y_m = clear_y_m + maths_max(0.0, deep)};
-        e->flags[slot] |= ENTITY_FLAG_CHASSIS;
+        e->row[slot].flags |= ENTITY_FLAG_CHASSIS;
     }
-    e->y[slot] = pose.y_m;
-    e->pitch[slot] = pose.pitch_rad;
-    e->roll[slot] = pose.roll_rad;
+    e->row[slot].y = pose.y_m;
+    e->row[slot].pitch = pose.pitch_rad;
+    e->row[slot].roll = pose.roll_rad;
 }
 
 /* Returns the height of a vehicle over the ground. An aeroplane that holds its course flies into
@@ -114,30 +115,30 @@ static void put_entity(const struct vehicle_placement *placement, uint32_t slot,
     double speed = group->moving ? group->speed_mps : kind->min_speed_mps;
     double sine, cosine;
     maths_sincos(stand->heading, &sine, &cosine);
-    e->id[slot] = slot + 1;
-    e->state[slot] = ENTITY_ACTIVE;
-    e->kind[slot] = group->kind;
-    e->force[slot] = group->force;
-    e->behaviour[slot] = e->order[slot] =
+    e->row[slot].id = slot + 1;
+    e->row[slot].state = ENTITY_ACTIVE;
+    e->row[slot].kind = group->kind;
+    e->row[slot].force = group->force;
+    e->row[slot].behaviour = e->row[slot].order =
         follows(placement, slot) ? BEHAVIOUR_FOLLOW : group->behaviour;
-    e->order_arg[slot] = follows(placement, slot)              ? built->counts.formations - 1
-                         : group->behaviour == BEHAVIOUR_ROUTE ? group->route
-                                                               : group->area;
-    e->flags[slot] = group->flags;
-    e->leg[slot] = stand->leg;
-    e->x[slot] = stand->x;
-    e->z[slot] = stand->z;
-    e->y[slot] =
+    e->row[slot].order_arg = follows(placement, slot)              ? built->counts.formations - 1
+                             : group->behaviour == BEHAVIOUR_ROUTE ? group->route
+                                                                   : group->area;
+    e->row[slot].flags = group->flags;
+    e->row[slot].leg = stand->leg;
+    e->row[slot].x = stand->x;
+    e->row[slot].z = stand->z;
+    e->row[slot].y =
         terrain_base_height(&terrain, stand->x, stand->z) + height_of(built, group, stand, speed);
-    e->heading[slot] = stand->heading;
+    e->row[slot].heading = stand->heading;
     if (kind->domain == DOMAIN_LAND)
         set_on_ground(built, slot);
-    e->vx[slot] = speed * sine;
-    e->vz[slot] = -speed * cosine;
-    e->fuel_l[slot] = kind->fuel_l;
-    e->rounds[slot] = kind->rounds;
-    e->goal_x[slot] = stand->x; /* reached: the agent's first decision chooses the next */
-    e->goal_z[slot] = stand->z;
+    e->row[slot].vx = speed * sine;
+    e->row[slot].vz = -speed * cosine;
+    e->row[slot].fuel_l = kind->fuel_l;
+    e->row[slot].rounds = kind->rounds;
+    e->row[slot].goal_x = stand->x; /* reached: the agent's first decision chooses the next */
+    e->row[slot].goal_z = stand->z;
 }
 
 /* Finds the wanted place, or one near it if the ground there is unsuitable. */
@@ -189,8 +190,9 @@ static int stand_in_formation(struct vehicle_placement *placement, uint32_t slot
         return 0;
     }
     maths_sincos(rank->heading, &sine, &cosine);
-    *stand = (struct stand){e->x[rank->leader] + ahead * sine + right * cosine,
-                            e->z[rank->leader] - ahead * cosine + right * sine, rank->heading, 0};
+    *stand =
+        (struct stand){e->row[rank->leader].x + ahead * sine + right * cosine,
+                       e->row[rank->leader].z - ahead * cosine + right * sine, rank->heading, 0};
     return near_stand(placement, slot, formation->spacing_m / 4.0, stand);
 }
 
@@ -355,10 +357,10 @@ static struct force_base middle_of(const struct entities *e, uint32_t used, uint
 {
     double x = 0.0, z = 0.0, count = 0.0;
     for (uint32_t i = 0; i < used; i++) {
-        if (e->force[i] != force)
+        if (e->row[i].force != force)
             continue;
-        x += e->x[i];
-        z += e->z[i];
+        x += e->row[i].x;
+        z += e->row[i].z;
         count += 1.0;
     }
     return count > 0.0 ? (struct force_base){x / count, z / count}
@@ -374,11 +376,11 @@ static struct force_base base_of(const struct world_build *built, uint32_t force
                       base = middle;
     double least = INFINITY;
     for (uint32_t i = 0; i < built->used; i++) {
-        double dx = e->x[i] - middle.x, dz = e->z[i] - middle.z;
-        if (e->force[i] == force && dx * dx + dz * dz < least &&
-            built->scenario->kinds[e->kind[i]].domain == DOMAIN_LAND) {
+        double dx = e->row[i].x - middle.x, dz = e->row[i].z - middle.z;
+        if (e->row[i].force == force && dx * dx + dz * dz < least &&
+            built->scenario->kinds[e->row[i].kind].domain == DOMAIN_LAND) {
             least = dx * dx + dz * dz;
-            base = (struct force_base){e->x[i], e->z[i]};
+            base = (struct force_base){e->row[i].x, e->row[i].z};
         }
     }
     return base;
@@ -401,7 +403,7 @@ int vehicle_placement_build(struct world_build *built, struct error_text *error)
     struct terrain terrain = world_build_terrain(built);
     struct vehicle_placement placement = {.built = built, .error = error};
     int result = 0;
-    built->first_memory = aligned_alloc(COLUMN_ALIGN, entities_bytes(capacity));
+    built->first_memory = aligned_alloc(TABLE_ALIGN, entities_bytes(capacity));
     built->names = calloc(capacity, sizeof *built->names);
     built->formations = calloc(scenario->group_count + 1, sizeof *built->formations);
     if (!built->first_memory || !built->names || !built->formations)

@@ -32,7 +32,7 @@ static void fill_state(const struct world_build *built, struct state *state)
                                 .next_id = built->used + 1};
     entities_copy(&state->entities, &built->first, 0, built->used);
     for (uint32_t i = 0; i < built->used; i++)
-        vehicles += built->first.state[i] != ENTITY_FREE;
+        vehicles += built->first.row[i].state != ENTITY_FREE;
     head->vehicles = vehicles;
     memset(state->fixed_damage, DAMAGE_NONE, built->counts.fixed);
     state_seal(state, built->counts.fixed);

@@ -35,19 +35,19 @@ static struct climb_look begin(const struct step_context *context, uint32_t i,
                                const struct desired_motion *desired)
 {
     const struct entities *m = context->m;
-    const struct kind *kind = &context->world->kinds[m->kind[i]];
+    const struct kind *kind = &context->world->kinds[m->row[i].kind];
     const double think_s = context->dt_s * (double)cruise_start_think_frames(context, i);
-    double speed = sqrt(m->vx[i] * m->vx[i] + m->vz[i] * m->vz[i]);
+    double speed = sqrt(m->row[i].vx * m->row[i].vx + m->row[i].vz * m->row[i].vz);
     double load = maths_max(climb_limits_lift(kind, speed) / LEVEL_LOAD, 1.0);
     double turn = GRAVITY_MPS2 * sqrt(load * load - 1.0) / maths_max(speed, 1.0);
     return (struct climb_look){
         .tops = &context->line_of_sight->skyline,
-        .x = m->x[i],
-        .y = m->y[i] + think_s * maths_min(m->vy[i], 0.0),
-        .z = m->z[i],
-        .up_mps = m->vy[i],
+        .x = m->row[i].x,
+        .y = m->row[i].y + think_s * maths_min(m->row[i].vy, 0.0),
+        .z = m->row[i].z,
+        .up_mps = m->row[i].vy,
         .speed_mps = speed,
-        .heading_rad = maths_heading(m->vx[i], m->vz[i]),
+        .heading_rad = maths_heading(m->row[i].vx, m->row[i].vz),
         .clear_m = CLEAR_SHARE * desired->altitude_m,
         .pull_mps2 = climb_limits_pull(kind, speed),
         .turn_rps = maths_min(turn, kind->turn_rate_rps),
@@ -107,20 +107,20 @@ void terrain_following_steer(const struct step_context *context, uint32_t i, dou
                              struct desired_motion *desired)
 {
     const struct entities *m = context->m;
-    const struct kind *kind = &context->world->kinds[m->kind[i]];
+    const struct kind *kind = &context->world->kinds[m->row[i].kind];
     const struct climb_look look = begin(context, i, desired);
     double most = maths_min(STEEP_SHARE * look.speed_mps, CLIMB_SHARE * kind->climb_rate_mps);
-    double off = maths_wrap_half(desired->heading_rad - m->heading[i]);
+    double off = maths_wrap_half(desired->heading_rad - m->row[i].heading);
     double needed = needed_climb(&look, off, look.turn_rps), climb = needed;
     if (needed > most && !aircraft_turns_back(context, i)) {
-        desired->heading_rad = m->heading[i] + find_way(&look, off, most, &needed);
+        desired->heading_rad = m->row[i].heading + find_way(&look, off, most, &needed);
         climb = kind->climb_rate_mps;
     }
-    bool low = m->behaviour[i] == BEHAVIOUR_SCRIPT;
+    bool low = m->row[i].behaviour == BEHAVIOUR_SCRIPT;
     if (low && climb <= 0.0)
         return;
     climb = maths_min(climb, kind->climb_rate_mps);
-    double height = m->y[i] - aircraft_ground(context, i) + climb / AIRCRAFT_FOLLOW_PS;
+    double height = m->row[i].y - aircraft_ground(context, i) + climb / AIRCRAFT_FOLLOW_PS;
     if (!low && needed < LATER_SHARE * most)
         height = maths_min(height, highest_m);
     desired->altitude_m = maths_max(desired->altitude_m, height);
@@ -145,10 +145,11 @@ void terrain_following_steer(const struct step_context *context, uint32_t i, dou
 static double bank_room(const struct step_context *context, uint32_t i)
 {
     const struct entities *m = context->m;
-    const struct kind *kind = &context->world->kinds[m->kind[i]];
+    const struct kind *kind = &context->world->kinds[m->row[i].kind];
     double east, south, half = 0.5 * kind->width_m;
-    double ground = terrain_base_plane(&context->world->terrain, m->x[i], m->z[i], &east, &south);
-    double room = m->y[i] + kind->low_m - ground - half * sqrt(east * east + south * south);
+    double ground =
+        terrain_base_plane(&context->world->terrain, m->row[i].x, m->row[i].z, &east, &south);
+    double room = m->row[i].y + kind->low_m - ground - half * sqrt(east * east + south * south);
     return maths_clamp(room / half, LEAST_BANK, HOVER_BANK);
 }
 
@@ -168,16 +169,16 @@ static struct climb_ahead look_ahead(const struct step_context *context, uint32_
                                      const struct desired_motion *desired, double bank)
 {
     const struct entities *m = context->m;
-    const struct kind *kind = &context->world->kinds[m->kind[i]];
+    const struct kind *kind = &context->world->kinds[m->row[i].kind];
     const double think_s = context->dt_s * (double)cruise_start_think_frames(context, i);
-    double speed = sqrt(m->vx[i] * m->vx[i] + m->vz[i] * m->vz[i]);
+    double speed = sqrt(m->row[i].vx * m->row[i].vx + m->row[i].vz * m->row[i].vz);
     double tight = speed / maths_max(kind->turn_rate_rps, 0.01), brake = climb_limits_brake(kind);
     double body = maths_min(0.5 * HOVER_LEAN * kind->length_m - kind->low_m, desired->altitude_m);
     bool astern = desired->speed_mps < 0.0;
     return (struct climb_ahead){
         .tops = &context->line_of_sight->skyline,
         .at = entities_position(m, i),
-        .up_mps = m->vy[i],
+        .up_mps = m->row[i].vy,
         .speed_mps = speed,
         .half_length_m = 0.5 * kind->length_m,
         .half_width_m = 0.5 * kind->width_m,
@@ -185,8 +186,8 @@ static struct climb_ahead look_ahead(const struct step_context *context, uint32_
         .pull_mps2 = climb_limits_pull(kind, speed),
         .brake_mps2 = brake,
         .late_s = HOVER_LATE_S + think_s,
-        .heading_rad = speed > STANDS_MPS ? maths_heading(m->vx[i], m->vz[i])
-                                          : m->heading[i] + (astern ? PI : 0.0),
+        .heading_rad = speed > STANDS_MPS ? maths_heading(m->row[i].vx, m->row[i].vz)
+                                          : m->row[i].heading + (astern ? PI : 0.0),
         .radius_m = maths_max(maths_max(speed * speed / (bank * GRAVITY_MPS2), tight), 1.0),
         .length_m = speed * speed / (2.0 * brake) + HOVER_S * speed + HOVER_M,
         .clear_m = maths_max(HOVER_CLEAR * desired->altitude_m, body),
@@ -202,7 +203,7 @@ void terrain_following_hover(const struct step_context *context, uint32_t i,
                              struct desired_motion *desired)
 {
     const struct entities *m = context->m;
-    const struct kind *kind = &context->world->kinds[m->kind[i]];
+    const struct kind *kind = &context->world->kinds[m->row[i].kind];
     const struct terrain *terrain = &context->world->terrain;
     if (!(desired->altitude_m > 0.0)) /* it sets down */
         return;
@@ -218,15 +219,15 @@ void terrain_following_hover(const struct step_context *context, uint32_t i,
         need.climb_mps = maths_max(need.climb_mps, turned.climb_mps);
         need.speed_mps = maths_min(need.speed_mps, turned.speed_mps);
         if (turned.speed_mps < TURNS_SHARE * ahead.speed_mps && ahead.speed_mps > STANDS_MPS)
-            desired->heading_rad = m->heading[i];
+            desired->heading_rad = m->row[i].heading;
     }
-    double turn = maths_wrap_half(desired->heading_rad - m->heading[i]);
+    double turn = maths_wrap_half(desired->heading_rad - m->row[i].heading);
     double most = bank * GRAVITY_MPS2 * AIRFRAME_TURN_S / maths_max(ahead.speed_mps, STANDS_MPS);
-    desired->heading_rad = m->heading[i] + maths_clamp(turn, -most, most);
+    desired->heading_rad = m->row[i].heading + maths_clamp(turn, -most, most);
     desired->speed_mps = maths_clamp(desired->speed_mps, -need.speed_mps, need.speed_mps);
     if (need.climb_mps == -INFINITY) /* nothing is near */
         return;
     double climb = maths_min(need.climb_mps, kind->climb_rate_mps);
-    double height = m->y[i] - aircraft_ground(context, i) + climb / AIRCRAFT_FOLLOW_PS;
+    double height = m->row[i].y - aircraft_ground(context, i) + climb / AIRCRAFT_FOLLOW_PS;
     desired->altitude_m = maths_max(desired->altitude_m, height);
 }

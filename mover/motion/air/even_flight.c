@@ -157,7 +157,7 @@ static double change_asked(const struct even_flight *f, uint32_t i, double heigh
  * climbs over what is further ahead: it has its climb, or the stretch is refused. */
 static bool climb(struct even_flight *f, uint32_t i, const struct desired_motion *desired)
 {
-    const double height = desired->altitude_m, way = (double)f->context->m->climb[i];
+    const double height = desired->altitude_m, way = (double)f->context->m->row[i].climb;
     const double over = maths_min(height, f->kind->cruise_altitude_m);
     const double rate = f->kind->climb_rate_mps;
     double most = CLIMB_SHARE * rate;
@@ -256,8 +256,9 @@ static void find_lean(const struct even_flight *f, uint32_t i, struct cruise_cha
     const double share = speed / maths_max(f->kind->max_speed_mps, 1.0);
     const double path = (f->up_mps + changes->climbed_mps) / maths_max(speed, 1.0);
     const double tilt = AIRFRAME_DRAG_SLOPE * share * fabs(share) + f->gain_mps2 / GRAVITY_MPS2;
-    changes->pitched_rad = maths_atan2(is_aeroplane(f->kind) ? path : -tilt, 1.0) - m->pitch[i];
-    changes->rolled_rad = maths_atan2(f->turned_rad / f->time_s * speed, GRAVITY_MPS2) - m->roll[i];
+    changes->pitched_rad = maths_atan2(is_aeroplane(f->kind) ? path : -tilt, 1.0) - m->row[i].pitch;
+    changes->rolled_rad =
+        maths_atan2(f->turned_rad / f->time_s * speed, GRAVITY_MPS2) - m->row[i].roll;
 }
 
 static void write_row(const struct even_flight *f, uint32_t i, const struct cruise_changes *changes)
@@ -267,12 +268,12 @@ static void write_row(const struct even_flight *f, uint32_t i, const struct crui
     double sine, cosine;
     kinematics_cruise(f->context, i, changes);
     entities_set_position(m, i, place_at(f, f->time_s));
-    m->heading[i] = maths_wrap_turn(m->heading[i] + f->turned_rad);
-    maths_sincos(m->heading[i], &sine, &cosine);
+    m->row[i].heading = maths_wrap_turn(m->row[i].heading + f->turned_rad);
+    maths_sincos(m->row[i].heading, &sine, &cosine);
     entities_set_velocity(
         m, i, (struct vec3){speed * sine, f->up_mps + changes->climbed_mps, -speed * cosine});
-    m->pitch[i] += changes->pitched_rad;
-    m->roll[i] += changes->rolled_rad;
+    m->row[i].pitch += changes->pitched_rad;
+    m->row[i].roll += changes->rolled_rad;
 }
 
 bool even_flight_begin(const struct step_context *context, uint32_t i,
@@ -280,16 +281,16 @@ bool even_flight_begin(const struct step_context *context, uint32_t i,
 {
     struct entities *m = context->m;
     struct even_flight f = {.context = context,
-                            .kind = &context->world->kinds[m->kind[i]],
+                            .kind = &context->world->kinds[m->row[i].kind],
                             .time_s = context->dt_s * (double)frames,
                             .from = entities_position(m, i),
-                            .heading_rad = m->heading[i],
-                            .up_mps = m->vy[i]};
+                            .heading_rad = m->row[i].heading,
+                            .up_mps = m->row[i].vy};
     double sine, cosine, rightward;
-    maths_sincos(m->heading[i], &sine, &cosine);
+    maths_sincos(m->row[i].heading, &sine, &cosine);
     kinematics_along(m, i, sine, cosine, &f.speed_mps, &rightward);
     const double fuel = burnt(&f, desired);
-    if (fabs(rightward) > SLIP_MPS || (fuel > 0.0 && m->fuel_l[i] <= fuel) ||
+    if (fabs(rightward) > SLIP_MPS || (fuel > 0.0 && m->row[i].fuel_l <= fuel) ||
         aircraft_turns_back(context, i) || !turn_and_gain(&f, desired) || !climb(&f, i, desired))
         return false;
     struct cruise_changes changes = {.frames = frames,
@@ -300,7 +301,7 @@ bool even_flight_begin(const struct step_context *context, uint32_t i,
     if (fabs(changes.pitched_rad) > LEAN_RAD || fabs(changes.rolled_rad) > LEAN_RAD ||
         !keeps_inside(&f, place_at(&f, f.time_s)) || !stays_over_ground(&f))
         return false;
-    m->fuel_l[i] -= fuel;
+    m->row[i].fuel_l -= fuel;
     write_row(&f, i, &changes);
     return true;
 }
@@ -317,7 +318,8 @@ static double free_of(const struct step_context *context, uint32_t i, uint32_t o
         vec3_sub(step_context_position(context, w, other), entities_position(m, i));
     const struct vec3 nears =
         vec3_sub(step_context_velocity(context, w, other), entities_velocity(m, i));
-    const double beside = body_m(&kinds[m->kind[i]]) + body_m(&kinds[w->kind[other]]) + BESIDE_M;
+    const double beside =
+        body_m(&kinds[m->row[i].kind]) + body_m(&kinds[w->row[other].kind]) + BESIDE_M;
     const double spread = SPREAD * sqrt(nears.x * nears.x + nears.z * nears.z);
     if (fabs(off.y) > FAR_M)
         return most_s;
@@ -337,13 +339,13 @@ uint32_t even_flight_frames(const struct step_context *context, uint32_t i, uint
     const struct entities *m = context->m;
     const double most_s = context->dt_s * (double)frames + AHEAD_S;
     const double ends_s = context->dt_s * (double)context->cruise_frames;
-    const double fastest_mps = context->world->kinds[m->kind[i]].max_speed_mps;
+    const double fastest_mps = context->world->kinds[m->row[i].kind].max_speed_mps;
     const struct neighbour_index_entry *at;
     double free_s = most_s;
     if (frames <= context->cruise_short || frames <= context->think_frames)
         return frames;
     struct neighbour_query query =
-        neighbour_query_begin(context->neighbours, NEIGHBOUR_INDEX_LIVING, m->x[i], m->z[i],
+        neighbour_query_begin(context->neighbours, NEIGHBOUR_INDEX_LIVING, m->row[i].x, m->row[i].z,
                               (2.0 * most_s + ends_s) * fastest_mps);
     while ((at = neighbour_query_next(&query)) != NULL) {
         if (at->row != i && context->world->kinds[at->kind].domain == DOMAIN_AIR)

@@ -38,8 +38,9 @@ static struct touchdown touchdown_of(const struct step_context *context, uint32_
     const struct entities *m = context->m;
     struct vec3 velocity = entities_velocity(m, i);
     struct vec3 normal =
-        terrain_normal(&context->world->terrain, context->craters, m->x[i], m->z[i]);
-    struct mat3 turn = rotation_matrix(rotation_of(m->heading[i], m->pitch[i], m->roll[i]));
+        terrain_normal(&context->world->terrain, context->craters, m->row[i].x, m->row[i].z);
+    struct mat3 turn =
+        rotation_matrix(rotation_of(m->row[i].heading, m->row[i].pitch, m->row[i].roll));
     const struct vec3 up = {turn.m[0][1], turn.m[1][1], turn.m[2][1]};
     double closing = -vec3_dot(velocity, normal);
     return (struct touchdown){
@@ -74,9 +75,9 @@ static double clearance_of(const struct step_context *context, uint32_t i)
 {
     const struct entities *m = context->m;
     struct body_points points;
-    body_points_of(context->world, m->kind[i], &points);
+    body_points_of(context->world, m->row[i].kind, &points);
     return body_points_clearance(context->world, context->craters, &points, entities_position(m, i),
-                                 rotation_of(m->heading[i], m->pitch[i], m->roll[i]));
+                                 rotation_of(m->row[i].heading, m->row[i].pitch, m->row[i].roll));
 }
 
 bool landing_touch(const struct step_context *context, uint32_t i,
@@ -84,21 +85,22 @@ bool landing_touch(const struct step_context *context, uint32_t i,
 {
     struct entities *m = context->m;
     const struct entities *w = &context->committed->entities;
-    const struct kind *kind = &context->world->kinds[m->kind[i]];
-    if (cover_is_water(terrain_cover(&context->world->terrain, m->x[i], m->z[i])) ||
+    const struct kind *kind = &context->world->kinds[m->row[i].kind];
+    if (cover_is_water(terrain_cover(&context->world->terrain, m->row[i].x, m->row[i].z)) ||
         clearance_of(context, i) > 0.0)
         return false;
     struct touchdown touch = touchdown_of(context, i);
     if (!is_gentle(kind, &touch))
         return false;
     double harm = harm_of(kind, touch.closing_mps);
-    m->flags[i] |= ENTITY_FLAG_LANDED;
-    m->harm_j[i] += harm * kind->resistance_j;
+    m->row[i].flags |= ENTITY_FLAG_LANDED;
+    m->row[i].harm_j += harm * kind->resistance_j;
     entities_set_position(m, i, entities_position(w, i));
-    m->heading[i] = w->heading[i], m->pitch[i] = w->pitch[i], m->roll[i] = w->roll[i];
+    m->row[i].heading = w->row[i].heading, m->row[i].pitch = w->row[i].pitch,
+    m->row[i].roll = w->row[i].roll;
     landing_move(context, i, desired);
     if (harm > 0.0)
-        m->trigger[i] = TRIGGER_AGROUND;
+        m->row[i].trigger = TRIGGER_AGROUND;
     return true;
 }
 
@@ -107,7 +109,7 @@ bool landing_touch(const struct step_context *context, uint32_t i,
 static bool wants_up(const struct step_context *context, uint32_t i, const struct kind *kind,
                      const struct desired_motion *desired)
 {
-    bool fuel = !(kind->fuel_l > 0.0) || context->m->fuel_l[i] > 0.0;
+    bool fuel = !(kind->fuel_l > 0.0) || context->m->row[i].fuel_l > 0.0;
     if (desired == NULL || !kind_hovers(kind) || !fuel)
         return false;
     return desired->driven ? desired->climb_mps > 0.0 : desired->altitude_m > CLIMBS_M;
@@ -120,14 +122,14 @@ static double lift_of(const struct step_context *context, uint32_t i,
 {
     const double full = (1.0 + AIRFRAME_COLLECTIVE) * GRAVITY_MPS2;
     struct entities *m = context->m;
-    const struct kind *kind = &context->world->kinds[m->kind[i]];
+    const struct kind *kind = &context->world->kinds[m->row[i].kind];
     if (desired == NULL || !kind_hovers(kind))
         return 0.0;
     if (!desired->driven)
         return up ? full : 0.0;
-    double spool = kinematics_approach(1.0 - (double)m->dodge[i], up ? 1.0 : 0.0,
+    double spool = kinematics_approach(1.0 - (double)m->row[i].dodge, up ? 1.0 : 0.0,
                                        context->dt_s / AIRFRAME_GOVERNOR_S);
-    m->dodge[i] = (float)(1.0 - spool);
+    m->row[i].dodge = (float)(1.0 - spool);
     return spool * full;
 }
 
@@ -138,8 +140,8 @@ static bool run(const struct step_context *context, uint32_t i, double lift_mps2
     struct body_points points;
     struct ground_contacts contacts;
     const struct vec3 before = body->velocity;
-    body_points_of(context->world, context->m->kind[i], &points);
-    ground_contacts_begin(&contacts, &context->world->kinds[context->m->kind[i]]);
+    body_points_of(context->world, context->m->row[i].kind, &points);
+    ground_contacts_begin(&contacts, &context->world->kinds[context->m->row[i].kind]);
     double steps = ground_body_steps(body, &points, context->dt_s), dt_s = context->dt_s / steps;
     for (int n = 0; n < (int)steps; n++) {
         ground_contacts_find(&contacts, context, &points, body, dt_s);
@@ -154,7 +156,7 @@ void landing_move(const struct step_context *context, uint32_t i,
                   const struct desired_motion *desired)
 {
     struct entities *m = context->m;
-    const struct kind *kind = &context->world->kinds[m->kind[i]];
+    const struct kind *kind = &context->world->kinds[m->row[i].kind];
     bool up = wants_up(context, i, kind, desired);
     double lift = lift_of(context, i, desired, up);
     struct rigid_body body = rigid_body_take(context, i);
@@ -162,10 +164,10 @@ void landing_move(const struct step_context *context, uint32_t i,
         rigid_body_put(context, i, &body);
     } else { /* its place keeps every bit, so that heaps can sleep */
         entities_set_velocity(m, i, (struct vec3){0.0, 0.0, 0.0});
-        m->spin_x[i] = m->spin_y[i] = m->spin_z[i] = 0.0;
+        m->row[i].spin_x = m->row[i].spin_y = m->row[i].spin_z = 0.0;
     }
-    if (up && m->vy[i] > 0.0 && clearance_of(context, i) > CLEAR_M)
-        m->flags[i] &= (uint8_t)~ENTITY_FLAG_LANDED;
+    if (up && m->row[i].vy > 0.0 && clearance_of(context, i) > CLEAR_M)
+        m->row[i].flags &= (uint8_t)~ENTITY_FLAG_LANDED;
 }
 
 void landing_tell_hard(struct serial_context *context, uint32_t i)

@@ -23,7 +23,7 @@
 /* Returns true if row i, an active aircraft, is on the ground. */
 static inline bool landing_is_down(const struct step_context *context, uint32_t i)
 {
-    return (context->m->flags[i] & ENTITY_FLAG_LANDED) != 0;
+    return (context->m->row[i].flags & ENTITY_FLAG_LANDED) != 0;
 }
 
 /* Row i has just flown for a frame and is near the ground. If it has touched it, gently enough, it

@@ -24,19 +24,19 @@
 
 static bool is_slower(const struct entities *m, uint32_t i, double most_mps, double most_rps)
 {
-    struct vec3 spin = {m->spin_x[i], m->spin_y[i], m->spin_z[i]};
+    struct vec3 spin = {m->row[i].spin_x, m->row[i].spin_y, m->row[i].spin_z};
     return vec3_length(entities_velocity(m, i)) < most_mps && vec3_length(spin) < most_rps;
 }
 
 static void stop(struct entities *m, uint32_t i)
 {
     entities_set_velocity(m, i, (struct vec3){0.0, 0.0, 0.0});
-    m->spin_x[i] = m->spin_y[i] = m->spin_z[i] = 0.0;
+    m->row[i].spin_x = m->row[i].spin_y = m->row[i].spin_z = 0.0;
 }
 
 static bool is_due(const struct step_context *context, uint32_t i)
 {
-    uint32_t until = context->m->until_tick[i];
+    uint32_t until = context->m->row[i].until_tick;
     return until != 0 && until <= (uint32_t)context->tick;
 }
 
@@ -46,16 +46,16 @@ static void drift(const struct step_context *context, uint32_t i)
 {
     struct entities *m = context->m;
     bool turned = spin_row(context, i);
-    double speed = sqrt(m->vx[i] * m->vx[i] + m->vz[i] * m->vz[i]);
+    double speed = sqrt(m->row[i].vx * m->row[i].vx + m->row[i].vz * m->row[i].vz);
     double left = maths_max(0.0, speed - AFLOAT_FRICTION * GRAVITY_MPS2 * context->dt_s);
     double share = speed > 0.0 ? left / speed : 0.0;
-    m->vx[i] *= share;
-    m->vz[i] *= share;
-    kinematics_advance(context, &m->x[i], &m->vx[i]);
-    kinematics_advance(context, &m->z[i], &m->vz[i]);
+    m->row[i].vx *= share;
+    m->row[i].vz *= share;
+    kinematics_advance(context, &m->row[i].x, &m->row[i].vx);
+    kinematics_advance(context, &m->row[i].z, &m->row[i].vz);
     bool sinks = sinking_hull(context, i);
     if (!turned && !sinks && entities_still(m, i))
-        m->until_tick[i] = (uint32_t)context->tick;
+        m->row[i].until_tick = (uint32_t)context->tick;
 }
 
 /* --- rigid bodies ------------------------------------------------------------------------------*/
@@ -65,12 +65,12 @@ static void break_up(const struct step_context *context, uint32_t i, double take
                      struct ground_contacts *contacts)
 {
     struct entities *m = context->m;
-    const struct kind *kind = &context->world->kinds[m->kind[i]];
-    if (kind->domain != DOMAIN_AIR || m->flags[i] & ENTITY_FLAG_BROKEN ||
+    const struct kind *kind = &context->world->kinds[m->row[i].kind];
+    if (kind->domain != DOMAIN_AIR || m->row[i].flags & ENTITY_FLAG_BROKEN ||
         taken_j < WRECK_BREAKS_JPKG * kind->mass_kg)
         return;
-    m->flags[i] |= ENTITY_FLAG_BROKEN;
-    m->trigger[i] = TRIGGER_BROKEN;
+    m->row[i].flags |= ENTITY_FLAG_BROKEN;
+    m->row[i].trigger = TRIGGER_BROKEN;
     ground_contacts_break(contacts);
 }
 
@@ -84,7 +84,8 @@ void wreck_tell_broken(struct serial_context *context, uint32_t i)
     if (hit == NULL)
         return;
     hit->toi = 1.0;
-    hit->impulse_ns = (float)(step->world->kinds[step->m->kind[i]].mass_kg * vec3_length(change));
+    hit->impulse_ns =
+        (float)(step->world->kinds[step->m->row[i].kind].mass_kg * vec3_length(change));
 }
 
 /* Notes that the row is slow, or that it is not, and brings it to rest when it has been slow for
@@ -93,9 +94,9 @@ static void settle(const struct step_context *context, uint32_t i, double depth_
 {
     struct entities *m = context->m;
     if (!is_slower(m, i, REST_MPS, REST_RPS) || depth_m >= REST_DEPTH_M) {
-        m->until_tick[i] = 0;
-    } else if (m->until_tick[i] == 0 && !sinking_begin(context, i)) {
-        m->until_tick[i] = (uint32_t)context->tick + (uint32_t)ceil(REST_S / context->dt_s);
+        m->row[i].until_tick = 0;
+    } else if (m->row[i].until_tick == 0 && !sinking_begin(context, i)) {
+        m->row[i].until_tick = (uint32_t)context->tick + (uint32_t)ceil(REST_S / context->dt_s);
     } else if (is_due(context, i)) {
         stop(m, i);
     }
@@ -110,12 +111,12 @@ static void slow_spin(const struct kind *kind, struct rigid_body *body, double d
 
 static void tumble(const struct step_context *context, uint32_t i)
 {
-    const struct kind *kind = &context->world->kinds[context->m->kind[i]];
+    const struct kind *kind = &context->world->kinds[context->m->row[i].kind];
     struct body_points points;
     struct ground_contacts contacts;
-    body_points_of(context->world, context->m->kind[i], &points);
+    body_points_of(context->world, context->m->row[i].kind, &points);
     ground_contacts_begin(&contacts, kind);
-    if (context->m->flags[i] & ENTITY_FLAG_BROKEN)
+    if (context->m->row[i].flags & ENTITY_FLAG_BROKEN)
         ground_contacts_break(&contacts);
     struct rigid_body body = rigid_body_take(context, i);
     const struct mat3 turn = rotation_matrix(body.turn);
@@ -147,7 +148,7 @@ void wreck_row(const struct step_context *context, uint32_t i)
         return; /* the common case */
     if (is_due(context, i) && is_slower(context->m, i, HELD_MPS, HELD_RPS))
         stop(context->m, i);
-    else if (context->world->kinds[context->m->kind[i]].domain == DOMAIN_SEA)
+    else if (context->world->kinds[context->m->row[i].kind].domain == DOMAIN_SEA)
         drift(context, i);
     else if (!sinking_row(context, i))
         tumble(context, i);

@@ -1,13 +1,13 @@
 /* Motion of wrecks: they fall, tumble and slide as rigid bodies whose points touch the ground,
  * until they come to rest. Nearly all of them lie still.
  *
- * The column until_tick of a wreck says whether it rests. 0: it moves. Otherwise it is the tick at
+ * The field until_tick of a wreck says whether it rests. 0: it moves. Otherwise it is the tick at
  * which a wreck that moves slowly comes to rest. From then on a wreck without velocity and spin
  * stays as it is, in the pose in which it came to rest. The collider sets until_tick to 0 when
  * something is destroyed, when it displaces a wreck and when a crater is dug under one.
  *
  * The ground breaks up an aircraft's wreck that strikes it too hard: ENTITY_FLAG_BROKEN of the
- * column flags. The row then stands for all pieces together, with the mass of all: breaking
+ * field flags. The row then stands for all pieces together, with the mass of all: breaking
  * changes no velocity, so momentum is conserved. What the pieces need to scatter is less than the
  * energy that the ground has taken in the impact. */
 #ifndef JOLON_MOVER_MOTION_WRECK_H

@@ -38,8 +38,9 @@ static int32_t cell_axis(const struct world *world, double metres)
 static bool is_vehicle(const struct frame_view *frame_view, uint32_t slot)
 {
     const struct entities *e = frame_view->entities;
-    return e->state[slot] == ENTITY_ACTIVE && e->kind[slot] < frame_view->world->counts.kinds &&
-           frame_view->world->kinds[e->kind[slot]].domain != DOMAIN_MUNITION;
+    return e->row[slot].state == ENTITY_ACTIVE &&
+           e->row[slot].kind < frame_view->world->counts.kinds &&
+           frame_view->world->kinds[e->row[slot].kind].domain != DOMAIN_MUNITION;
 }
 
 /* Returns how much there is of an effect to be seen: 1 for an explosion that has just happened, 0
@@ -68,11 +69,12 @@ static double action_near(const struct effects *effects, struct vec3 position, d
 static struct vec3 to_target(const struct frame_view *frame_view, uint32_t slot)
 {
     const struct entities *e = frame_view->entities;
-    enum behaviour behaviour = (enum behaviour)e->behaviour[slot];
-    uint32_t target = e->target_slot[slot];
+    enum behaviour behaviour = (enum behaviour)e->row[slot].behaviour;
+    uint32_t target = e->row[slot].target_slot;
     bool fights = behaviour == BEHAVIOUR_ATTACK || behaviour == BEHAVIOUR_REPOSITION ||
                   behaviour == BEHAVIOUR_FLEE;
-    if (!fights || e->target_id[slot] == 0 || !entities_alive(e, target, e->target_id[slot]))
+    if (!fights || e->row[slot].target_id == 0 ||
+        !entities_alive(e, target, e->row[slot].target_id))
         return (struct vec3){0.0, 0.0, 0.0};
     return vec3_sub(entities_position(e, target), entities_position(e, slot));
 }
@@ -113,7 +115,7 @@ struct follow_sight follow_look(const struct frame_view *frame_view, const struc
         return (struct follow_sight){maths_heading(way.x, way.z), level(way)};
     struct follow_sight sight = to_effects(effects, entities_position(e, slot),
                                            state_time_s(frame_view->world, frame_view->head));
-    return sight.far_m > 0.0 ? sight : (struct follow_sight){e->heading[slot], 0.0};
+    return sight.far_m > 0.0 ? sight : (struct follow_sight){e->row[slot].heading, 0.0};
 }
 
 /* Returns true if the row is a round in the air that a living vehicle fired. A howitzer's shell
@@ -121,26 +123,26 @@ struct follow_sight follow_look(const struct frame_view *frame_view, const struc
 static bool is_round(const struct frame_view *frame_view, uint32_t slot)
 {
     const struct entities *e = frame_view->entities;
-    return e->state[slot] == ENTITY_ACTIVE && e->behaviour[slot] == BEHAVIOUR_FLIGHT &&
-           frame_view->world->kinds[e->kind[slot]].delivery != DELIVERY_ARC &&
-           entities_alive(e, e->owner_slot[slot], e->owner_id[slot]);
+    return e->row[slot].state == ENTITY_ACTIVE && e->row[slot].behaviour == BEHAVIOUR_FLIGHT &&
+           frame_view->world->kinds[e->row[slot].kind].delivery != DELIVERY_ARC &&
+           entities_alive(e, e->row[slot].owner_slot, e->row[slot].owner_id);
 }
 
 static bool is_owner(const struct entities *e, uint32_t round, uint32_t slot)
 {
-    return e->owner_slot[round] == slot && e->owner_id[round] == e->id[slot];
+    return e->row[round].owner_slot == slot && e->row[round].owner_id == e->row[slot].id;
 }
 
 static bool is_target(const struct entities *e, uint32_t round, uint32_t slot)
 {
-    return e->target_slot[round] == slot && e->target_id[round] == e->id[slot];
+    return e->row[round].target_slot == slot && e->row[round].target_id == e->row[slot].id;
 }
 
 /* What one round in the air adds to a vehicle. The fire of machine guns is hardly to be seen. */
 static double fire_of(const struct frame_view *frame_view, uint32_t round, uint32_t slot)
 {
     const struct entities *e = frame_view->entities;
-    double mm = frame_view->world->kinds[e->kind[round]].penetration_mm;
+    double mm = frame_view->world->kinds[e->row[round].kind].penetration_mm;
     double share = mm > 0.0 && mm < SMALL_MM ? SMALL_SHARE : 1.0;
     return share * (is_owner(e, round, slot) ? FIRES : is_target(e, round, slot) ? FIRED_AT : 0.0);
 }
@@ -167,7 +169,7 @@ static double liveliness(const struct frame_view *frame_view, const struct effec
                          uint32_t slot, uint32_t neighbours)
 {
     const struct entities *e = frame_view->entities;
-    const struct kind *kind = &frame_view->world->kinds[e->kind[slot]];
+    const struct kind *kind = &frame_view->world->kinds[e->row[slot].kind];
     struct vec3 position = entities_position(e, slot);
     double speed = vec3_length(entities_velocity(e, slot));
     double score = NEIGHBOUR * (neighbours < NEIGHBOURS_MAX ? neighbours : NEIGHBOURS_MAX);
@@ -176,14 +178,14 @@ static double liveliness(const struct frame_view *frame_view, const struct effec
              : kind->domain == DOMAIN_AIR  ? 0.5
                                            : 0.0;
     score += speed > 3.0 ? 5.0 : 0.0;
-    score -= e->force[slot] == FORCE_NEUTRAL ? NO_ENEMY : 0.0;
-    score -= e->damage[slot];
+    score -= e->row[slot].force == FORCE_NEUTRAL ? NO_ENEMY : 0.0;
+    score -= e->row[slot].damage;
     const uint32_t *around;
     uint32_t objects = world_reach(
         frame_view->world,
         gridsquare_of(&frame_view->world->terrain.squares, position.x, position.z), &around);
     score += 0.25 * (objects < OBJECTS_MAX ? objects : OBJECTS_MAX);
-    score += e->behaviour[slot] == BEHAVIOUR_ATTACK ? FIGHTS : 0.0;
+    score += e->row[slot].behaviour == BEHAVIOUR_ATTACK ? FIGHTS : 0.0;
     double way = vec3_length(to_target(frame_view, slot));
     score += way > 0.0 ? TARGET_NEAR * maths_max(0.0, 1.0 - way / TARGET_NEAR_M) : 0.0;
     return score +
@@ -200,8 +202,8 @@ static double score_of(const struct frame_view *frame_view, const struct effects
 {
     const struct entities *e = frame_view->entities;
     double looks_rad = follow_look(frame_view, effects, slot).heading_rad;
-    double ahead_x = e->x[slot] + AHEAD_M * maths_sin(looks_rad);
-    double ahead_z = e->z[slot] - AHEAD_M * maths_cos(looks_rad);
+    double ahead_x = e->row[slot].x + AHEAD_M * maths_sin(looks_rad);
+    double ahead_z = e->row[slot].z - AHEAD_M * maths_cos(looks_rad);
     return liveliness(frame_view, effects, slot,
                       *cell_of(frame_view->world, neighbours, ahead_x, ahead_z));
 }
@@ -225,7 +227,7 @@ static void offer_fighters(struct choice *choice, const struct frame_view *frame
 {
     const struct entities *e = frame_view->entities;
     for (uint32_t i = 0; i < frame_view->head->used; i++) {
-        uint32_t of[2] = {e->owner_slot[i], e->target_slot[i]};
+        uint32_t of[2] = {e->row[i].owner_slot, e->row[i].target_slot};
         for (int n = 0; n < 2 && is_round(frame_view, i); n++) {
             if (of[n] < frame_view->head->used)
                 offer(choice, frame_view, of[n],
@@ -245,7 +247,7 @@ static uint32_t liveliest(const struct frame_view *frame_view, const struct effe
     memset(neighbours, 0, sizeof neighbours);
     for (uint32_t i = 0; i < frame_view->head->used; i++)
         if (is_vehicle(frame_view, i)) {
-            uint16_t *here = cell_of(frame_view->world, neighbours, e->x[i], e->z[i]);
+            uint16_t *here = cell_of(frame_view->world, neighbours, e->row[i].x, e->row[i].z);
             *here = (uint16_t)(*here + (*here < UINT16_MAX));
         }
     if (now != SLOT_NONE && is_vehicle(frame_view, now))
@@ -263,9 +265,9 @@ static uint32_t liveliest(const struct frame_view *frame_view, const struct effe
 static bool worth_following(const struct frame_view *frame_view, uint32_t slot)
 {
     const struct entities *e = frame_view->entities;
-    double dead_s =
-        (double)(frame_view->head->tick - e->changed_tick[slot]) * world_dt_s(frame_view->world);
-    return e->state[slot] == ENTITY_ACTIVE || dead_s < FOLLOW_WRECK_S;
+    double dead_s = (double)(frame_view->head->tick - e->row[slot].changed_tick) *
+                    world_dt_s(frame_view->world);
+    return e->row[slot].state == ENTITY_ACTIVE || dead_s < FOLLOW_WRECK_S;
 }
 
 uint32_t follow_choose(struct follow *follow, const struct frame_view *frame_view,
@@ -281,11 +283,11 @@ uint32_t follow_choose(struct follow *follow, const struct frame_view *frame_vie
     }
     uint32_t slot = follow->id != 0 ? entities_find(e, used, follow->id) : SLOT_NONE;
     if (slot != SLOT_NONE && worth_following(frame_view, slot) &&
-        (e->state[slot] == ENTITY_WRECK || now - follow->since_s < FOLLOW_KEEP_S))
+        (e->row[slot].state == ENTITY_WRECK || now - follow->since_s < FOLLOW_KEEP_S))
         return slot;
     uint32_t next = liveliest(frame_view, effects, slot);
     if (next == SLOT_NONE)
         return slot;
-    *follow = (struct follow){.id = e->id[next], .since_s = now};
+    *follow = (struct follow){.id = e->row[next].id, .since_s = now};
     return next;
 }

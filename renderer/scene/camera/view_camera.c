@@ -56,11 +56,11 @@ static struct subject subject_of(const struct frame_view *frame_view, uint32_t s
         return (struct subject){
             .position = {middle, ground, middle}, .scale = OVERLOOK_M / CHASE_UP_M, .away = 1.0};
     }
-    double radius = frame_view->world->kinds[e->kind[slot]].radius_m;
+    double radius = frame_view->world->kinds[e->row[slot].kind].radius_m;
     return (struct subject){
         .position = entities_position(e, slot),
-        .heading_rad = e->heading[slot],
-        .pitch_rad = e->pitch[slot],
+        .heading_rad = e->row[slot].heading,
+        .pitch_rad = e->row[slot].pitch,
         .scale = maths_clamp(radius / TANK_RADIUS_M, SCALE_MIN, SCALE_MAX),
         .away = 1.0,
     };
@@ -79,7 +79,7 @@ static double since_last(const struct view_camera *state, const struct frame_vie
 {
     const struct entities *e = frame_view->entities;
     double passed = frame_view_time_s(frame_view) - state->time_s;
-    if (slot == SLOT_NONE || state->id != e->id[slot] || passed < 0.0 || passed > LATE_S)
+    if (slot == SLOT_NONE || state->id != e->row[slot].id || passed < 0.0 || passed > LATE_S)
         return INFINITY;
     struct vec3 gone = vec3_scale(entities_velocity(e, slot), passed);
     struct vec3 off = vec3_sub(subject->position, vec3_add(state->position, gone));
@@ -89,7 +89,7 @@ static double since_last(const struct view_camera *state, const struct frame_vie
 static void remember(struct view_camera *state, const struct frame_view *frame_view, uint32_t slot,
                      const struct subject *subject)
 {
-    state->id = slot == SLOT_NONE ? 0 : frame_view->entities->id[slot];
+    state->id = slot == SLOT_NONE ? 0 : frame_view->entities->row[slot].id;
     state->time_s = frame_view_time_s(frame_view);
     state->position = subject->position;
 }
@@ -207,9 +207,10 @@ static void inside(const struct frame_view *frame_view, uint32_t slot,
 {
     const struct entities *e = frame_view->entities;
     struct crew_eye_seat seat =
-        crew_eye_seat(frame_view->world, &frame_view->world->kinds[e->kind[slot]]);
+        crew_eye_seat(frame_view->world, &frame_view->world->kinds[e->row[slot].kind]);
     struct vec3 at = seat.eye;
-    struct body_axes axes = body_axes_of(e->heading[slot], e->pitch[slot], e->roll[slot]);
+    struct body_axes axes =
+        body_axes_of(e->row[slot].heading, e->row[slot].pitch, e->row[slot].roll);
     struct vec3 eye = vec3_add(entities_position(e, slot), vec3_scale(axes.forward, at.x));
     eye = vec3_add(eye, vec3_add(vec3_scale(axes.up, at.y), vec3_scale(axes.right, at.z)));
     eye.y = maths_max(eye.y, floor_at(frame_view, eye, INSIDE_MIN_M));

@@ -32,15 +32,15 @@ void articulation_free(struct articulation *articulation)
 static struct articulation_state initial_state(const struct frame_view *frame_view, uint32_t slot)
 {
     const struct entities *e = frame_view->entities;
-    bool wreck = e->state[slot] == ENTITY_WRECK;
-    return (struct articulation_state){.id = e->id[slot],
+    bool wreck = e->row[slot].state == ENTITY_WRECK;
+    return (struct articulation_state){.id = e->row[slot].id,
                                        .time_s = frame_view_time_s(frame_view),
-                                       .x = e->x[slot],
-                                       .y = e->y[slot],
-                                       .z = e->z[slot],
-                                       .heading = e->heading[slot],
-                                       .turret_rad = e->turret[slot],
-                                       .gun_rad = wreck ? GUN_HANGS_RAD : e->gun[slot]};
+                                       .x = e->row[slot].x,
+                                       .y = e->row[slot].y,
+                                       .z = e->row[slot].z,
+                                       .heading = e->row[slot].heading,
+                                       .turret_rad = e->row[slot].turret,
+                                       .gun_rad = wreck ? GUN_HANGS_RAD : e->row[slot].gun};
 }
 
 static double wrapped(double distance)
@@ -53,11 +53,13 @@ static void roll(struct articulation_state *state, const struct frame_view *fram
                  uint32_t slot)
 {
     const struct entities *e = frame_view->entities;
-    const struct kind *kind = &frame_view->world->kinds[e->kind[slot]];
-    struct body_axes axes = body_axes_of(e->heading[slot], e->pitch[slot], e->roll[slot]);
-    struct vec3 moved = {e->x[slot] - state->x, e->y[slot] - state->y, e->z[slot] - state->z};
+    const struct kind *kind = &frame_view->world->kinds[e->row[slot].kind];
+    struct body_axes axes =
+        body_axes_of(e->row[slot].heading, e->row[slot].pitch, e->row[slot].roll);
+    struct vec3 moved = {e->row[slot].x - state->x, e->row[slot].y - state->y,
+                         e->row[slot].z - state->z};
     double distance = vec3_dot(moved, axes.forward);
-    double turned = maths_wrap_half(e->heading[slot] - state->heading);
+    double turned = maths_wrap_half(e->row[slot].heading - state->heading);
     double more = turned * TRACK_APART * kind->width_m;
     state->travel_m[0] = wrapped(state->travel_m[0] + distance + more);
     state->travel_m[1] = wrapped(state->travel_m[1] + distance - more);
@@ -74,19 +76,19 @@ static void advance(struct articulation_state *state, const struct frame_view *f
                     uint32_t slot, double dt_s)
 {
     const struct entities *e = frame_view->entities;
-    state->turret_rad = e->turret[slot];
-    if (e->state[slot] == ENTITY_WRECK) { /* a wreck does not roll, and its gun sinks */
+    state->turret_rad = e->row[slot].turret;
+    if (e->row[slot].state == ENTITY_WRECK) { /* a wreck does not roll, and its gun sinks */
         float most = (float)(GUN_SINKS_RADS * dt_s);
         state->gun_rad = fmaxf(fminf(state->gun_rad, GUN_HANGS_RAD), state->gun_rad - most);
     } else {
-        state->gun_rad = e->gun[slot];
+        state->gun_rad = e->row[slot].gun;
         roll(state, frame_view, slot);
     }
     state->time_s += dt_s;
-    state->x = e->x[slot];
-    state->y = e->y[slot];
-    state->z = e->z[slot];
-    state->heading = e->heading[slot];
+    state->x = e->row[slot].x;
+    state->y = e->row[slot].y;
+    state->z = e->row[slot].z;
+    state->heading = e->row[slot].heading;
 }
 
 void articulation_note(struct articulation *articulation, const struct frame_view *frame_view)
@@ -95,11 +97,11 @@ void articulation_note(struct articulation *articulation, const struct frame_vie
     double now_s = frame_view_time_s(frame_view);
     for (uint32_t i = 0; i < frame_view->head->used && i < articulation->slots; i++) {
         struct articulation_state *state = &articulation->state[i];
-        if (e->state[i] == ENTITY_FREE || e->kind[i] >= frame_view->world->counts.kinds ||
-            frame_view->world->kinds[e->kind[i]].domain == DOMAIN_MUNITION)
+        if (e->row[i].state == ENTITY_FREE || e->row[i].kind >= frame_view->world->counts.kinds ||
+            frame_view->world->kinds[e->row[i].kind].domain == DOMAIN_MUNITION)
             continue;
         double dt_s = now_s - state->time_s;
-        if (state->id != e->id[i] || dt_s < 0.0 || dt_s > ARTICULATION_JUMP_S)
+        if (state->id != e->row[i].id || dt_s < 0.0 || dt_s > ARTICULATION_JUMP_S)
             *state = initial_state(frame_view, i);
         else
             advance(state, frame_view, i, dt_s);
@@ -110,7 +112,7 @@ struct articulation_state articulation_of(const struct articulation *articulatio
                                           const struct frame_view *frame_view, uint32_t slot)
 {
     if (articulation == NULL || slot >= articulation->slots ||
-        articulation->state[slot].id != frame_view->entities->id[slot])
+        articulation->state[slot].id != frame_view->entities->row[slot].id)
         return initial_state(frame_view, slot);
     return articulation->state[slot];
 }

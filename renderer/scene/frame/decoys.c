@@ -26,17 +26,17 @@ static void release(struct effects *effects, const struct frame_view *frame_view
 {
     const struct entities *e = frame_view->entities;
     double now_s = frame_view_time_s(frame_view);
-    if (released_just_now(effects, e->id[target], now_s, interval_s))
+    if (released_just_now(effects, e->row[target].id, now_s, interval_s))
         return;
     struct effect *effect = effects_allocate(effects);
     uint32_t number = (uint32_t)(now_s / DECOYS_INTERVAL_S) & 0xffu;
     *effect = (struct effect){
         .point = entities_position(e, target),
         .time_s = now_s,
-        .size_m = (float)frame_view->world->kinds[e->kind[target]].radius_m,
+        .size_m = (float)frame_view->world->kinds[e->row[target].kind].radius_m,
         .type = EFFECT_DECOY,
-        .seed = e->id[target] << 8 | number,
-        .kind = e->kind[target],
+        .seed = e->row[target].id << 8 | number,
+        .kind = e->row[target].kind,
     };
     vec3_to_floats(effect->direction, entities_velocity(e, target));
 }
@@ -45,11 +45,11 @@ static bool homes(const struct frame_view *frame_view, uint32_t slot)
 {
     const struct entities *e = frame_view->entities;
     const struct world *world = frame_view->world;
-    return e->state[slot] == ENTITY_ACTIVE && e->behaviour[slot] == BEHAVIOUR_FLIGHT &&
-           e->kind[slot] < world->counts.kinds &&
-           world->kinds[e->kind[slot]].guidance == GUIDANCE_HOMING && e->target_id[slot] != 0 &&
-           e->target_slot[slot] < frame_view->head->used &&
-           entities_alive(e, e->target_slot[slot], e->target_id[slot]);
+    return e->row[slot].state == ENTITY_ACTIVE && e->row[slot].behaviour == BEHAVIOUR_FLIGHT &&
+           e->row[slot].kind < world->counts.kinds &&
+           world->kinds[e->row[slot].kind].guidance == GUIDANCE_HOMING &&
+           e->row[slot].target_id != 0 && e->row[slot].target_slot < frame_view->head->used &&
+           entities_alive(e, e->row[slot].target_slot, e->row[slot].target_id);
 }
 
 /* Returns true if the vehicle's smoke grenades burn. */
@@ -57,8 +57,8 @@ static bool screens(const struct frame_view *frame_view, uint32_t slot)
 {
     const struct entities *e = frame_view->entities;
     const struct world *world = frame_view->world;
-    return e->state[slot] == ENTITY_ACTIVE && e->kind[slot] < world->counts.kinds &&
-           smoke_age_s(e, &world->kinds[e->kind[slot]], slot, frame_view->head->tick,
+    return e->row[slot].state == ENTITY_ACTIVE && e->row[slot].kind < world->counts.kinds &&
+           smoke_age_s(e, &world->kinds[e->row[slot].kind], slot, frame_view->head->tick,
                        world_dt_s(world)) < SMOKE_S;
 }
 
@@ -71,7 +71,7 @@ void decoys_take(struct effects *effects, const struct frame_view *frame_view)
             release(effects, frame_view, slot, DECOYS_SCREEN_S);
         if (!homes(frame_view, slot))
             continue;
-        uint32_t target = e->target_slot[slot];
+        uint32_t target = e->row[slot].target_slot;
         struct vec3 to = vec3_sub(entities_position(e, target), entities_position(e, slot));
         struct vec3 closing = vec3_sub(entities_velocity(e, target), entities_velocity(e, slot));
         missiles++;

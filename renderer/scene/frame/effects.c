@@ -78,7 +78,7 @@ static struct vec3 direction_of(const struct frame_view *frame_view, const struc
     if (slot != SLOT_NONE) {
         direction = entities_velocity(e, slot);
     } else if ((slot = entities_find(e, frame_view->head->used, fire->shooter.id)) != SLOT_NONE) {
-        const struct kind *kind = kind_of(frame_view, e->kind[slot]);
+        const struct kind *kind = kind_of(frame_view, e->row[slot].kind);
         direction = vec3_sub((struct vec3){fire->point[0], fire->point[1], fire->point[2]},
                              entities_position(e, slot));
         direction.y -=
@@ -161,12 +161,12 @@ static void take_wrecks(struct effects *effects, const struct frame_view *frame_
         frame_view->head->used < MOTION_TRAILS_SLOTS ? frame_view->head->used : MOTION_TRAILS_SLOTS;
     for (uint32_t slot = 0; slot < used; slot++) {
         struct motion_trail *trail = &effects->trails.trail[slot];
-        const struct kind *kind = kind_of(frame_view, e->kind[slot]);
-        bool broken = e->flags[slot] & ENTITY_FLAG_BROKEN;
-        if (e->state[slot] != ENTITY_WRECK || kind == NULL ||
+        const struct kind *kind = kind_of(frame_view, e->row[slot].kind);
+        bool broken = e->row[slot].flags & ENTITY_FLAG_BROKEN;
+        if (e->row[slot].state != ENTITY_WRECK || kind == NULL ||
             (trail->wrecked && trail->broken == broken))
             continue;
-        double time_s = (double)e->changed_tick[slot] * world_dt_s(frame_view->world);
+        double time_s = (double)e->row[slot].changed_tick * world_dt_s(frame_view->world);
         trail->wrecked = true;
         trail->broken = broken;
         if (now_s - time_s > effects_life_s(EFFECT_WRECK))
@@ -177,8 +177,8 @@ static void take_wrecks(struct effects *effects, const struct frame_view *frame_
             .time_s = time_s,
             .size_m = (float)fireball(maths_max(kind->explosive_kg, WRECK_MIN_KG)),
             .type = EFFECT_WRECK,
-            .seed = e->id[slot],
-            .kind = e->kind[slot],
+            .seed = e->row[slot].id,
+            .kind = e->row[slot].kind,
         };
         vec3_to_floats(wreck->direction, entities_velocity(e, slot));
     }

@@ -5,7 +5,6 @@
 
 #include <stdlib.h>
 
-#define COLUMNS     6
 #define JUMP_SHARE  2.0  /* a body moves at most this many times as far as its speed says ... */
 #define JUMP_M      2.0  /* ... plus this; otherwise it jumped */
 #define LATE_STEPS  4.0  /* after such a delay the clock starts anew */
@@ -14,37 +13,23 @@
 
 int frame_interpolation_init(struct frame_interpolation *interpolation, uint32_t capacity)
 {
-    *interpolation =
-        (struct frame_interpolation){.columns = calloc((size_t)capacity * COLUMNS, sizeof(double))};
-    interpolation->entities.capacity = capacity;
-    return interpolation->columns == NULL ? -1 : 0;
+    *interpolation = (struct frame_interpolation){
+        .entities = {capacity, calloc(capacity, sizeof(struct entity))}};
+    return interpolation->entities.row == NULL ? -1 : 0;
 }
 
 void frame_interpolation_free(struct frame_interpolation *interpolation)
 {
-    free(interpolation->columns);
-    interpolation->columns = NULL;
-}
-
-/* Borrows the columns of the earlier frame, except those of positions and angles. */
-static void borrow(struct frame_interpolation *interpolation, const struct entities *earlier)
-{
-    uint32_t capacity = interpolation->entities.capacity;
-    interpolation->entities = *earlier;
-    interpolation->entities.capacity = capacity;
-    interpolation->entities.x = interpolation->columns;
-    interpolation->entities.y = interpolation->columns + capacity;
-    interpolation->entities.z = interpolation->columns + 2 * (size_t)capacity;
-    interpolation->entities.heading = interpolation->columns + 3 * (size_t)capacity;
-    interpolation->entities.pitch = interpolation->columns + 4 * (size_t)capacity;
-    interpolation->entities.roll = interpolation->columns + 5 * (size_t)capacity;
+    free(interpolation->entities.row);
+    interpolation->entities.row = NULL;
 }
 
 /* Returns true if both rows are the same body in the same state and it has not jumped. */
 static bool is_continuous(const struct entities *a, const struct entities *b, uint32_t i,
                           double passed_s)
 {
-    if (a->state[i] == ENTITY_FREE || a->id[i] != b->id[i] || a->state[i] != b->state[i])
+    if (a->row[i].state == ENTITY_FREE || a->row[i].id != b->row[i].id ||
+        a->row[i].state != b->row[i].state)
         return false;
     double speed =
         maths_max(vec3_length(entities_velocity(a, i)), vec3_length(entities_velocity(b, i)));
@@ -63,9 +48,9 @@ static void interpolate_row(const struct entities *to, const struct entities *a,
 {
     entities_set_position(to, i,
                           vec3_lerp(entities_position(a, i), entities_position(b, i), share));
-    to->heading[i] = maths_wrap_turn(turn_between(a->heading[i], b->heading[i], share));
-    to->pitch[i] = turn_between(a->pitch[i], b->pitch[i], share);
-    to->roll[i] = turn_between(a->roll[i], b->roll[i], share);
+    to->row[i].heading = maths_wrap_turn(turn_between(a->row[i].heading, b->row[i].heading, share));
+    to->row[i].pitch = turn_between(a->row[i].pitch, b->row[i].pitch, share);
+    to->row[i].roll = turn_between(a->row[i].roll, b->row[i].roll, share);
 }
 
 struct frame_view frame_interpolation_between(struct frame_interpolation *interpolation,
@@ -79,7 +64,7 @@ struct frame_view frame_interpolation_between(struct frame_interpolation *interp
     if (share <= 0.0)
         return *earlier;
     const struct entities *a = earlier->entities, *b = later->entities;
-    borrow(interpolation, a);
+    entities_copy(&interpolation->entities, a, 0, earlier->head->used);
     for (uint32_t i = 0; i < earlier->head->used; i++) {
         bool goes_on = i < later->head->used && is_continuous(a, b, i, passed_s);
         interpolate_row(&interpolation->entities, a, goes_on ? b : a, i, share);

@@ -17,8 +17,8 @@
 #define FRAME_INTERPOLATION_STEPS_MAX 3.5
 
 struct frame_interpolation {
-    struct entities entities; /* the earlier frame's, with interpolated positions and angles */
-    double *columns;          /* [6 * capacity] x, y, z, heading, pitch, roll; owned */
+    struct entities
+        entities; /* the earlier frame's, with interpolated positions and angles; owned */
 };
 
 /* Returns 0, or -1 with errno ENOMEM. */

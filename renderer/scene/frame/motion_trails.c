@@ -47,9 +47,9 @@ static void note(struct motion_trail *trail, const struct frame_view *frame_view
                  double now_s)
 {
     const struct entities *e = frame_view->entities;
-    const struct kind *kind = &frame_view->world->kinds[e->kind[slot]];
-    const double at[3] = {e->x[slot], e->y[slot], e->z[slot]};
-    const double velocity[3] = {e->vx[slot], e->vy[slot], e->vz[slot]};
+    const struct kind *kind = &frame_view->world->kinds[e->row[slot].kind];
+    const double at[3] = {e->row[slot].x, e->row[slot].y, e->row[slot].z};
+    const double velocity[3] = {e->row[slot].vx, e->row[slot].vy, e->row[slot].vz};
     if (trail->count > 0 && newest(trail)->time_s > now_s)
         trail->count = 0; /* the time was set back */
     if (trail->count > 0 && now_s - newest(trail)->time_s < interval_s(kind->domain))
@@ -67,19 +67,21 @@ void motion_trails_note(struct motion_trails *trails, const struct frame_view *f
         frame_view->head->used < MOTION_TRAILS_SLOTS ? frame_view->head->used : MOTION_TRAILS_SLOTS;
     for (uint32_t slot = 0; slot < used; slot++) {
         struct motion_trail *trail = &trails->trail[slot];
-        if (e->state[slot] == ENTITY_FREE || e->kind[slot] >= frame_view->world->counts.kinds)
+        if (e->row[slot].state == ENTITY_FREE ||
+            e->row[slot].kind >= frame_view->world->counts.kinds)
             continue; /* its trail is still visible */
-        if (trail->id != e->id[slot]) {
-            trail->id = e->id[slot];
-            trail->kind = e->kind[slot];
+        if (trail->id != e->row[slot].id) {
+            trail->id = e->row[slot].id;
+            trail->kind = e->row[slot].kind;
             trail->count = 0;
             trail->wrecked = trail->broken = false;
             trail->smokes_s = INFINITY;
         }
-        if (e->state[slot] == ENTITY_ACTIVE && e->damage[slot] >= DAMAGE_MED)
-            trail->smokes_s = fmin(trail->smokes_s,
-                                   (double)e->changed_tick[slot] * world_dt_s(frame_view->world));
-        if (e->state[slot] == ENTITY_ACTIVE && leaves_trail(&frame_view->world->kinds[trail->kind]))
+        if (e->row[slot].state == ENTITY_ACTIVE && e->row[slot].damage >= DAMAGE_MED)
+            trail->smokes_s = fmin(trail->smokes_s, (double)e->row[slot].changed_tick *
+                                                        world_dt_s(frame_view->world));
+        if (e->row[slot].state == ENTITY_ACTIVE &&
+            leaves_trail(&frame_view->world->kinds[trail->kind]))
             note(trail, frame_view, slot, now_s);
     }
 }

@@ -14,26 +14,26 @@ void statistics_of(struct statistics *statistics, const struct frame_view *frame
 {
     const struct world *world = frame_view->world;
     const struct entities *e = frame_view->entities;
-    const struct kind *kind = &world->kinds[e->kind[slot]];
+    const struct kind *kind = &world->kinds[e->row[slot].kind];
     const char *grounded = grounded_word(e, kind, slot);
     char marking[REMOTE_MARKING_MAX + 1];
     const char *own = world_row_name(world, e, slot, marking);
     *statistics = (struct statistics){
         .kind = kind->name,
-        .force = force_name((enum force)e->force[slot]),
-        .state = grounded ? grounded : entity_state_name((enum entity_state)e->state[slot]),
-        .damage = damage_name((enum damage)e->damage[slot]),
-        .behaviour = behaviour_name((enum behaviour)e->behaviour[slot]),
-        .id = e->id[slot],
+        .force = force_name((enum force)e->row[slot].force),
+        .state = grounded ? grounded : entity_state_name((enum entity_state)e->row[slot].state),
+        .damage = damage_name((enum damage)e->row[slot].damage),
+        .behaviour = behaviour_name((enum behaviour)e->row[slot].behaviour),
+        .id = e->row[slot].id,
         .speed_kmh = 3.6 * vec3_length(entities_velocity(e, slot)),
-        .heading_deg = maths_wrap_turn(e->heading[slot]) * DEG_PER_RAD,
-        .pitch_deg = e->pitch[slot] * DEG_PER_RAD,
-        .roll_deg = e->roll[slot] * DEG_PER_RAD,
-        .altitude_m = e->y[slot],
-        .above_ground_m = e->y[slot] - terrain_height(&world->terrain, frame_view->craters,
-                                                      e->x[slot], e->z[slot]),
-        .fuel_share = kind->fuel_l > 0.0 ? e->fuel_l[slot] / kind->fuel_l : 1.0,
-        .rounds = e->rounds[slot],
+        .heading_deg = maths_wrap_turn(e->row[slot].heading) * DEG_PER_RAD,
+        .pitch_deg = e->row[slot].pitch * DEG_PER_RAD,
+        .roll_deg = e->row[slot].roll * DEG_PER_RAD,
+        .altitude_m = e->row[slot].y,
+        .above_ground_m = e->row[slot].y - terrain_height(&world->terrain, frame_view->craters,
+                                                          e->row[slot].x, e->row[slot].z),
+        .fuel_share = kind->fuel_l > 0.0 ? e->row[slot].fuel_l / kind->fuel_l : 1.0,
+        .rounds = e->row[slot].rounds,
         .rounds_full = kind->rounds,
         .frame = frame_view->head->frame,
         .time_s = frame_view_time_s(frame_view),
@@ -41,7 +41,7 @@ void statistics_of(struct statistics *statistics, const struct frame_view *frame
     if (own[0] != '\0')
         snprintf(statistics->name, sizeof statistics->name, "%s", own);
     else
-        snprintf(statistics->name, sizeof statistics->name, "%s %u", kind->name, e->id[slot]);
+        snprintf(statistics->name, sizeof statistics->name, "%s %u", kind->name, e->row[slot].id);
 }
 
 void statistics_line(const struct statistics *s, char *text, size_t bytes)

@@ -19,12 +19,12 @@ static void entity_particles(struct draw_list *list, const struct frame_view *fr
                              const struct motion_trails *trails, uint32_t slot)
 {
     const struct entities *e = frame_view->entities;
-    if (e->state[slot] == ENTITY_FREE || e->kind[slot] >= frame_view->world->counts.kinds)
+    if (e->row[slot].state == ENTITY_FREE || e->row[slot].kind >= frame_view->world->counts.kinds)
         return;
-    const struct kind *kind = &frame_view->world->kinds[e->kind[slot]];
-    const struct motion_trail *trail = motion_trails_of(trails, slot, e->id[slot]);
+    const struct kind *kind = &frame_view->world->kinds[e->row[slot].kind];
+    const struct motion_trail *trail = motion_trails_of(trails, slot, e->row[slot].id);
     smoke_entity(list, frame_view, trail, slot, kind);
-    if (e->state[slot] == ENTITY_ACTIVE)
+    if (e->row[slot].state == ENTITY_ACTIVE)
         trails_entity(list, frame_view, trail, slot, kind);
 }
 

@@ -39,13 +39,15 @@ void rotors_add(struct draw_list *list, const struct static_scene *static_scene,
 {
     const struct entities *e = frame_view->entities;
     for (uint32_t slot = 0; slot < frame_view->head->used; slot++) {
-        if (e->state[slot] != ENTITY_ACTIVE || e->kind[slot] >= frame_view->world->counts.kinds)
+        if (e->row[slot].state != ENTITY_ACTIVE ||
+            e->row[slot].kind >= frame_view->world->counts.kinds)
             continue;
-        const struct kind *kind = &frame_view->world->kinds[e->kind[slot]];
+        const struct kind *kind = &frame_view->world->kinds[e->row[slot].kind];
         if (kind->domain != DOMAIN_AIR || kind->model >= frame_view->world->counts.models)
             continue;
         const struct mesh_skeleton *skeleton = &static_scene->skeletons[kind->model];
-        struct body_axes axes = body_axes_of(e->heading[slot], e->pitch[slot], e->roll[slot]);
+        struct body_axes axes =
+            body_axes_of(e->row[slot].heading, e->row[slot].pitch, e->row[slot].roll);
         for (uint32_t joint = 1; joint < MODEL_JOINTS_MAX; joint++) {
             const float *pivot = skeleton->pivot[joint];
             struct vec3 hub = vec3_add(entities_position(e, slot), turned(&axes, pivot));

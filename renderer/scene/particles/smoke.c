@@ -151,21 +151,21 @@ void smoke_entity(struct draw_list *list, const struct frame_view *frame_view,
                   const struct motion_trail *trail, uint32_t slot, const struct kind *kind)
 {
     const struct entities *e = frame_view->entities;
-    bool dead = e->state[slot] == ENTITY_WRECK;
-    if (kind->domain == DOMAIN_MUNITION || (!dead && e->damage[slot] < DAMAGE_MED))
+    bool dead = e->row[slot].state == ENTITY_WRECK;
+    if (kind->domain == DOMAIN_MUNITION || (!dead && e->row[slot].damage < DAMAGE_MED))
         return;
     struct vec3 at = entities_position(e, slot);
-    double changed_s = (double)e->changed_tick[slot] * world_dt_s(frame_view->world);
+    double changed_s = (double)e->row[slot].changed_tick * world_dt_s(frame_view->world);
     double began_s = trail != NULL ? maths_min(trail->smokes_s, changed_s) : changed_s;
     struct shade thin = {0.25f, 0.24f, 0.23f, THIN_SMOKE},
                  thick = {0.20f, 0.19f, 0.18f, THICK_SMOKE};
     struct vec3 top = {at.x, at.y + 0.5 * kind->height_m, at.z};
     double size = 0.3 * kind->radius_m;
     /* Smoke from before the damage grew is still in the air, and thinner. */
-    smoke_column(list, top, size, began_s, changed_s, thin, e->id[slot]);
+    smoke_column(list, top, size, began_s, changed_s, thin, e->row[slot].id);
     if (dead)
-        wreck(list, kind, at, changed_s, e->id[slot]);
+        wreck(list, kind, at, changed_s, e->row[slot].id);
     else
         smoke_column(list, top, size, changed_s, list->time_s,
-                     e->damage[slot] >= DAMAGE_HIGH ? thick : thin, e->id[slot]);
+                     e->row[slot].damage >= DAMAGE_HIGH ? thick : thin, e->row[slot].id);
 }

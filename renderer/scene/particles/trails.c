@@ -127,13 +127,13 @@ static void dust(struct draw_list *list, const struct frame_view *frame_view,
     const struct terrain *terrain = &frame_view->world->terrain;
     struct trail trail = {.history = history,
                           .now = point_of(e, slot, list->time_s),
-                          .born_s = (double)e->born_tick[slot] * world_dt_s(frame_view->world),
+                          .born_s = (double)e->row[slot].born_tick * world_dt_s(frame_view->world),
                           .rate_hz = DUST_HZ,
                           .life_s = DUST_LIFE_S,
                           .size_m = 0.20 * kind->width_m + 0.25,
                           .growth = 2.4,
                           .settle_mps = 0.6,
-                          .seed = e->id[slot]};
+                          .seed = e->row[slot].id};
     struct particle_sequence sequence = trail_sequence(list, &trail, DUST_MIN_MPS);
     struct trail_particle placed;
     for (int64_t number = sequence.first; number <= sequence.last; number += sequence.step) {
@@ -172,12 +172,12 @@ static void foam(struct draw_list *list, const struct frame_view *frame_view,
     const struct entities *e = frame_view->entities;
     struct trail trail = {.history = history,
                           .now = point_of(e, slot, list->time_s),
-                          .born_s = (double)e->born_tick[slot] * world_dt_s(frame_view->world),
+                          .born_s = (double)e->row[slot].born_tick * world_dt_s(frame_view->world),
                           .rate_hz = side == 0 ? WAKE_HZ : BOW_HZ,
                           .life_s = side == 0 ? WAKE_LIFE_S : BOW_LIFE_S,
                           .size_m = (side == 0 ? 0.26 : 0.12) * kind->width_m,
                           .growth = side == 0 ? 1.8 : 3.2,
-                          .seed = e->id[slot] * 3u + (uint32_t)(side + 1)};
+                          .seed = e->row[slot].id * 3u + (uint32_t)(side + 1)};
     struct particle_sequence sequence = trail_sequence(list, &trail, WAKE_MIN_MPS);
     struct trail_particle placed;
     for (int64_t number = sequence.first; number <= sequence.last; number += sequence.step) {
@@ -236,8 +236,8 @@ static void missile(struct draw_list *list, const struct frame_view *frame_view,
                     const struct motion_trail *history, uint32_t slot, const struct kind *kind)
 {
     const struct entities *e = frame_view->entities;
-    struct trail trail = missile_trail(history, point_of(e, slot, list->time_s), e->id[slot]);
-    trail.born_s = (double)e->born_tick[slot] * world_dt_s(frame_view->world);
+    struct trail trail = missile_trail(history, point_of(e, slot, list->time_s), e->row[slot].id);
+    trail.born_s = (double)e->row[slot].born_tick * world_dt_s(frame_view->world);
     missile_smoke(list, &trail);
     struct vec3 velocity = entities_velocity(e, slot);
     double speed = maths_max(vec3_length(velocity), 1.0), half = 0.5 * kind->length_m;
@@ -317,10 +317,10 @@ static void rotor_wash(struct draw_list *list, const struct frame_view *frame_vi
     if (strength <= 0.0)
         return;
     struct particle_sequence sequence =
-        particle_sequence_of(e->id[slot], WASH_HZ, list->time_s - WASH_LIFE_S, list->time_s,
+        particle_sequence_of(e->row[slot].id, WASH_HZ, list->time_s - WASH_LIFE_S, list->time_s,
                              particles_share(list, radius, at));
     for (int64_t number = sequence.first; number <= sequence.last; number += sequence.step) {
-        uint32_t n = (uint32_t)number, seed = e->id[slot];
+        uint32_t n = (uint32_t)number, seed = e->row[slot].id;
         double t = (list->time_s - particle_sequence_time_s(&sequence, number)) / WASH_LIFE_S;
         double turn = TWO_PI * (double)particle_random(seed, n, 23), sine, cosine;
         maths_sincos(turn, &sine, &cosine);
@@ -369,7 +369,8 @@ void trails_ended(struct draw_list *list, const struct frame_view *frame_view,
     const struct entities *e = frame_view->entities;
     for (uint32_t slot = 0; slot < MOTION_TRAILS_SLOTS && slot < frame_view->head->used; slot++) {
         const struct motion_trail *history = &histories->trail[slot];
-        if (history->count == 0 || (e->state[slot] != ENTITY_FREE && e->id[slot] == history->id) ||
+        if (history->count == 0 ||
+            (e->row[slot].state != ENTITY_FREE && e->row[slot].id == history->id) ||
             frame_view->world->kinds[history->kind].domain != DOMAIN_MUNITION)
             continue;
         const struct motion_trail_point *end =

@@ -23,8 +23,8 @@ bool battle_count_begin(struct battle_count *count, const struct view *view)
     if (!count->stuck || !count->longest || !count->kind || !count->force || !count->gone)
         return false;
     for (uint32_t i = 0; i < count->vehicles; i++) {
-        count->kind[i] = (uint8_t)e->kind[i];
-        count->force[i] = e->force[i] % FORCE_COUNT;
+        count->kind[i] = (uint8_t)e->row[i].kind;
+        count->force[i] = e->row[i].force % FORCE_COUNT;
         count->first[count->force[i]][count->kind[i]]++;
     }
     return true;
@@ -60,7 +60,8 @@ static bool was_active(const struct battle_count *count, const struct state *bef
 {
     uint32_t row = party->id - 1;
     return party->id != 0 && !party->fixed && row < count->vehicles &&
-           before->entities.id[row] == party->id && before->entities.state[row] == ENTITY_ACTIVE;
+           before->entities.row[row].id == party->id &&
+           before->entities.row[row].state == ENTITY_ACTIVE;
 }
 
 /* Returns how accurate the shooter of a round is. */
@@ -152,10 +153,10 @@ static void take_event(struct battle_count *count, const struct view *view,
 
 static bool pushes(const struct view *view, const struct entities *e, uint32_t i)
 {
-    double speed = sqrt(e->vx[i] * e->vx[i] + e->vz[i] * e->vz[i]);
-    return e->state[i] == ENTITY_ACTIVE && e->behaviour[i] != BEHAVIOUR_HOLD &&
-           view->world.kinds[e->kind[i]].domain == DOMAIN_LAND &&
-           fabs((double)e->throttle[i]) >= PUSHES_LEAST && speed < PUSHES_MPS;
+    double speed = sqrt(e->row[i].vx * e->row[i].vx + e->row[i].vz * e->row[i].vz);
+    return e->row[i].state == ENTITY_ACTIVE && e->row[i].behaviour != BEHAVIOUR_HOLD &&
+           view->world.kinds[e->row[i].kind].domain == DOMAIN_LAND &&
+           fabs((double)e->row[i].throttle) >= PUSHES_LEAST && speed < PUSHES_MPS;
 }
 
 static void take_row(struct battle_count *count, const struct view *view, const struct state *state,
@@ -166,7 +167,7 @@ static void take_row(struct battle_count *count, const struct view *view, const 
     if (count->stuck[i] > count->longest[i])
         count->longest[i] = count->stuck[i];
     if (i >= count->vehicles || count->gone[i] ||
-        (e->state[i] == ENTITY_ACTIVE && e->id[i] == i + 1))
+        (e->row[i].state == ENTITY_ACTIVE && e->row[i].id == i + 1))
         return;
     count->gone[i] = 1;
     count->losses[minute_of(count, state->head->tick)]++;

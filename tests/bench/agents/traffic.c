@@ -20,16 +20,16 @@ struct traffic {
 
 static bool counts(const struct entities *e, uint32_t row)
 {
-    return e->state[row] == ENTITY_ACTIVE && e->behaviour[row] != BEHAVIOUR_HOLD &&
-           e->behaviour[row] != BEHAVIOUR_FLIGHT;
+    return e->row[row].state == ENTITY_ACTIVE && e->row[row].behaviour != BEHAVIOUR_HOLD &&
+           e->row[row].behaviour != BEHAVIOUR_FLIGHT;
 }
 
 static void disarm(const struct view *view)
 {
     const struct entities *e = &view->w[0].entities;
     for (uint32_t i = 0; i < view->w[0].head->used; i++) {
-        e->rounds[i] = 0;
-        e->flags[i] &= (uint8_t)~ENTITY_FLAG_FIRE_AT_WILL;
+        e->row[i].rounds = 0;
+        e->row[i].flags &= (uint8_t)~ENTITY_FLAG_FIRE_AT_WILL;
     }
 }
 
@@ -44,7 +44,7 @@ static void take(const struct view *view, const struct state *state, uint64_t fr
         if (event->type != EVENT_COLLISION)
             continue;
         uint32_t row = entities_find(e, state->head->used, event->collision.a.id);
-        if (row == SLOT_NONE || e->behaviour[row] == BEHAVIOUR_HOLD)
+        if (row == SLOT_NONE || e->row[row].behaviour == BEHAVIOUR_HOLD)
             continue;
         const struct event_party *other = &event->collision.b;
         if (other->fixed && view->world.kinds[other->kind].rigidity < YIELDING_RIGIDITY)

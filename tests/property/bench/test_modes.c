@@ -35,10 +35,10 @@ static void is_world(enum bench_mode mode, enum behaviour behaviour, bool at_war
     uint32_t at_will = 0;
     assert_int_equal(view.w[0].head->vehicles, VEHICLES);
     for (uint32_t i = 0; i < VEHICLES; i++) {
-        assert_int_equal(e->behaviour[i], behaviour);
-        assert_true(fabs(e->x[i] - BENCH_MIDDLE_M) <= 0.5 * side_m + 50.0);
-        assert_true(fabs(e->z[i] - BENCH_MIDDLE_M) <= 0.5 * side_m + 50.0);
-        at_will += (e->flags[i] & ENTITY_FLAG_FIRE_AT_WILL) != 0;
+        assert_int_equal(e->row[i].behaviour, behaviour);
+        assert_true(fabs(e->row[i].x - BENCH_MIDDLE_M) <= 0.5 * side_m + 50.0);
+        assert_true(fabs(e->row[i].z - BENCH_MIDDLE_M) <= 0.5 * side_m + 50.0);
+        at_will += (e->row[i].flags & ENTITY_FLAG_FIRE_AT_WILL) != 0;
     }
     assert_int_equal(at_will, at_war ? VEHICLES : 0);
     segment_abandon(&view);
@@ -57,7 +57,8 @@ static void test_vehicles_do_what_the_mode_says(void **state)
 static void is_empty_beyond(const struct entities *e, uint32_t used)
 {
     for (uint32_t row = used; row < e->capacity; row++)
-        assert_true(e->id[row] == 0 && e->state[row] == ENTITY_FREE && e->x[row] == 0.0);
+        assert_true(e->row[row].id == 0 && e->row[row].state == ENTITY_FREE &&
+                    e->row[row].x == 0.0);
 }
 
 static struct frame_stepper stepper;
@@ -116,8 +117,8 @@ static void test_rows_in_use_do_not_depend_on_threads_and_restarts(void **state)
     for (uint32_t frame = 1; frame <= FRAMES; frame++) {
         if (fixture_random(&random) % 4 == 0) {
             frame_stepper_free(&stepper);
-            view.m.entities.id[view.m.entities.capacity - 1] = 77; /* of a frame that is lost */
-            view.w[frame & 1].entities.id[view.m.entities.capacity - 2] = 78;
+            view.m.entities.row[view.m.entities.capacity - 1].id = 77; /* of a frame that is lost */
+            view.w[frame & 1].entities.row[view.m.entities.capacity - 2].id = 78;
             assert_int_equal(frame_stepper_init(&stepper, &view, 1 + frame % 2), 0);
         }
         frame_stepper_step(&stepper, NULL);

@@ -178,7 +178,7 @@ static void test_aircraft_that_turn_past_each_other_end_no_frame_in_each_other(v
                                         .velocity = vec3_add(drift, vec3_scale(off, -0.9))});
             struct entities e = steps_rows(&f);
             struct vec3 spin = vec3_scale(fixture_direction(&random), 1.5);
-            e.spin_x[row] = spin.x, e.spin_y[row] = spin.y, e.spin_z[row] = spin.z;
+            e.row[row].spin_x = spin.x, e.row[row].spin_y = spin.y, e.row[row].spin_z = spin.z;
         }
         for (uint32_t frame = 0; frame < GRAZE_FRAMES; frame++) {
             fixture_run(&f, 1);

@@ -111,8 +111,8 @@ static void test_no_vehicle_gains_from_what_it_breaks(void **state)
         for (int frame = 0; frame < 40; frame++) {
             fixture_run(&f, 1);
             struct entities e = steps_rows(&f);
-            double after = e.vx[row] * e.vx[row] + e.vz[row] * e.vz[row] +
-                           turning * e.spin_y[row] * e.spin_y[row];
+            double after = e.row[row].vx * e.row[row].vx + e.row[row].vz * e.row[row].vz +
+                           turning * e.row[row].spin_y * e.row[row].spin_y;
             assert_true(after <= before * (1.0 + 1e-9));
             before = after;
         }

@@ -63,7 +63,7 @@ static void begin(struct small_world *w, uint32_t capacity)
     w->params.capacity = w->capacity = capacity;
     w->params.dt_s = 1.0 / 60.0;
     w->params.collision.threshold_height_m = 60.0;
-    w->memory = aligned_alloc(COLUMN_ALIGN, entities_bytes(capacity));
+    w->memory = aligned_alloc(TABLE_ALIGN, entities_bytes(capacity));
     w->path = calloc(capacity, sizeof *w->path);
     assert_true(w->memory && w->path);
     entities_bind(&w->e, capacity, w->memory);
@@ -116,13 +116,14 @@ static void draw_row(struct small_world *w, uint32_t i, const struct spread *pla
     if (kind == KIND_GIANT && fixture_random(random) % 4 != 0)
         kind = KIND_CAR;
     entities_clear(e, i);
-    e->id[i] = i + 1;
-    e->kind[i] = (uint16_t)kind;
-    e->state[i] = (uint8_t)(fixture_random(random) % 10 == 0 ? ENTITY_FREE : ENTITY_ACTIVE);
-    e->behaviour[i] = kind == KIND_ROUND ? BEHAVIOUR_FLIGHT : BEHAVIOUR_HOLD;
+    e->row[i].id = i + 1;
+    e->row[i].kind = (uint16_t)kind;
+    e->row[i].state = (uint8_t)(fixture_random(random) % 10 == 0 ? ENTITY_FREE : ENTITY_ACTIVE);
+    e->row[i].behaviour = kind == KIND_ROUND ? BEHAVIOUR_FLIGHT : BEHAVIOUR_HOLD;
     if (kind == KIND_ROUND && i > 0) { /* shot by another row, or by an entity that is gone */
-        e->owner_slot[i] = (uint32_t)(fixture_random(random) % i);
-        e->owner_id[i] = e->owner_slot[i] + 1 + (fixture_random(random) % 4 == 0 ? 1000u : 0u);
+        e->row[i].owner_slot = (uint32_t)(fixture_random(random) % i);
+        e->row[i].owner_id =
+            e->row[i].owner_slot + 1 + (fixture_random(random) % 4 == 0 ? 1000u : 0u);
     }
     w->path[i] = (struct path){.at = spread_point(place, random),
                                .along = {along * fixture_uniform(random, -1, 1),
@@ -199,8 +200,8 @@ static double corners_apart(const struct small_world *w, uint32_t a, uint32_t b)
         apart(p->at.x, p->along.x * (1.0 - p->since), q->at.x, q->along.x * (1.0 - q->since));
     double z =
         apart(p->at.z, p->along.z * (1.0 - p->since), q->at.z, q->along.z * (1.0 - q->since));
-    return sqrt(x * x + z * z) - pair_filter_margin(&w->world, &w->kinds[w->e.kind[a]]) -
-           pair_filter_margin(&w->world, &w->kinds[w->e.kind[b]]);
+    return sqrt(x * x + z * z) - pair_filter_margin(&w->world, &w->kinds[w->e.row[a].kind]) -
+           pair_filter_margin(&w->world, &w->kinds[w->e.row[b].kind]);
 }
 
 static enum wanted oracle(const struct small_world *w, uint32_t a, uint32_t b)
@@ -490,8 +491,8 @@ static void draw_crowd(struct small_world *w, uint64_t *random)
     w->rows = w->capacity;
     for (uint32_t i = 0; i < w->rows; i++) {
         draw_row(w, i, &place, random);
-        if (w->e.kind[i] == KIND_GIANT)
-            w->e.kind[i] = KIND_CAR;
+        if (w->e.row[i].kind == KIND_GIANT)
+            w->e.row[i].kind = KIND_CAR;
         /* A third stands in a throng. */
         if (i % 3 == 0)
             w->path[i].at = vec3_add(

@@ -73,10 +73,12 @@ static const struct vec3 middle = {25000.0, 3000.0, 25000.0};
 static struct vec3 rotation_path_of(const struct fixture *f, uint32_t row, double *energy)
 {
     struct entities e = steps_rows(f);
-    const struct mass_properties inertia = mass_properties_of(&f->view.world.kinds[e.kind[row]]);
-    struct mat3 turn = rotation_matrix(rotation_of(e.heading[row], e.pitch[row], e.roll[row]));
-    struct vec3 spin =
-        rotation_back(&turn, (struct vec3){e.spin_x[row], e.spin_y[row], e.spin_z[row]});
+    const struct mass_properties inertia =
+        mass_properties_of(&f->view.world.kinds[e.row[row].kind]);
+    struct mat3 turn =
+        rotation_matrix(rotation_of(e.row[row].heading, e.row[row].pitch, e.row[row].roll));
+    struct vec3 spin = rotation_back(
+        &turn, (struct vec3){e.row[row].spin_x, e.row[row].spin_y, e.row[row].spin_z});
     const struct vec3 body = {inertia.moment.x * spin.x, inertia.moment.y * spin.y,
                               inertia.moment.z * spin.z};
     *energy += 0.5 * vec3_dot(body, spin);
@@ -88,7 +90,7 @@ static struct sums motion_of(const struct fixture *f)
     struct entities e = steps_rows(f);
     struct sums motion = {.scale = 0.0};
     for (uint32_t i = 0; i < 2; i++) {
-        double mass = f->view.world.kinds[e.kind[i]].mass_kg;
+        double mass = f->view.world.kinds[e.row[i].kind].mass_kg;
         struct vec3 v = entities_velocity(&e, i);
         motion.momentum = vec3_add(motion.momentum, vec3_scale(v, mass));
         motion.energy += 0.5 * mass * vec3_dot(v, v);
@@ -132,7 +134,7 @@ static void test_rows_39_43_46_impulses_keep_momentum_and_never_add_energy(void 
         assert_true(difference(before.momentum, after.momentum) <= 1e-12 * before.scale);
         /* Rows 39, 43: about a point some 20 km from the collision. */
         assert_true(difference(before.angular, after.angular) <= 1e-9 * 20000.0 * before.scale);
-        turned += fabs(e.spin_x[0]) + fabs(e.spin_y[0]) + fabs(e.spin_z[0]) > 0.01;
+        turned += fabs(e.row[0].spin_x) + fabs(e.row[0].spin_y) + fabs(e.row[0].spin_z) > 0.01;
         assert_true(after.energy <= before.energy * (1.0 + 1e-12));
         /* Row 46: they are apart, to the nanometre, when the frame ends. */
         assert_true(difference(entities_position(&e, 0), entities_position(&e, 1)) >= reach - 1e-9);
@@ -160,7 +162,7 @@ static void test_impulses_do_not_depend_on_the_order_of_bodies(void **state)
             for (uint32_t i = 0; i < 2; i++) {
                 velocity[swapped][i] = entities_velocity(&e, i ^ (uint32_t)swapped);
                 position[swapped][i] = entities_position(&e, i ^ (uint32_t)swapped);
-                harm[swapped][i] = e.harm_j[i ^ (uint32_t)swapped];
+                harm[swapped][i] = e.row[i ^ (uint32_t)swapped].harm_j;
             }
         }
         for (int i = 0; i < 2; i++) {

@@ -65,10 +65,10 @@ static struct sums sums_of(const struct entities *e, const double yaw[VEHICLES])
 {
     struct sums sums = {0.0, 0.0, 0.0, 0.0};
     for (uint32_t i = 0; i < VEHICLES; i++) {
-        const struct kind *kind = &f.view.world.kinds[e->kind[i]];
-        double v2 = e->vx[i] * e->vx[i] + e->vz[i] * e->vz[i];
-        sums.x += kind->mass_kg * e->vx[i];
-        sums.z += kind->mass_kg * e->vz[i];
+        const struct kind *kind = &f.view.world.kinds[e->row[i].kind];
+        double v2 = e->row[i].vx * e->row[i].vx + e->row[i].vz * e->row[i].vz;
+        sums.x += kind->mass_kg * e->row[i].vx;
+        sums.z += kind->mass_kg * e->row[i].vz;
         sums.size += kind->mass_kg * sqrt(v2);
         sums.energy +=
             0.5 * kind->mass_kg * v2 + 0.5 * mass_properties_of(kind).moment.y * yaw[i] * yaw[i];
@@ -79,12 +79,13 @@ static struct sums sums_of(const struct entities *e, const double yaw[VEHICLES])
 static void check_rows(const struct entities *e)
 {
     for (uint32_t i = 0; i < VEHICLES; i++) {
-        assert_true(isfinite(e->x[i]) && isfinite(e->y[i]) && isfinite(e->z[i]));
-        assert_true(isfinite(e->vx[i]) && isfinite(e->vy[i]) && isfinite(e->vz[i]));
-        assert_true(isfinite(e->heading[i]) && isfinite(e->pitch[i]) && isfinite(e->roll[i]));
-        assert_true(isfinite(e->spin_y[i]) && isfinite(e->harm_j[i]));
-        assert_true(e->x[i] >= 0.0 && e->x[i] <= WORLD_SIDE_DEFAULT_M);
-        assert_true(e->z[i] >= 0.0 && e->z[i] <= WORLD_SIDE_DEFAULT_M);
+        assert_true(isfinite(e->row[i].x) && isfinite(e->row[i].y) && isfinite(e->row[i].z));
+        assert_true(isfinite(e->row[i].vx) && isfinite(e->row[i].vy) && isfinite(e->row[i].vz));
+        assert_true(isfinite(e->row[i].heading) && isfinite(e->row[i].pitch) &&
+                    isfinite(e->row[i].roll));
+        assert_true(isfinite(e->row[i].spin_y) && isfinite(e->row[i].harm_j));
+        assert_true(e->row[i].x >= 0.0 && e->row[i].x <= WORLD_SIDE_DEFAULT_M);
+        assert_true(e->row[i].z >= 0.0 && e->row[i].z <= WORLD_SIDE_DEFAULT_M);
     }
 }
 
@@ -105,8 +106,9 @@ static double step(void)
     const struct entities *m = &f.view.m.entities, *n = &next.entities;
     const struct entities *w = &f.view.w[(next.head->frame - 1) & 1].entities;
     for (uint32_t i = 0; i < VEHICLES; i++) {
-        yaw[0][i] = -maths_wrap_half(m->heading[i] - w->heading[i]) * f.view.world.params->hz;
-        yaw[1][i] = yaw[0][i] + n->spin_y[i] - m->spin_y[i];
+        yaw[0][i] =
+            -maths_wrap_half(m->row[i].heading - w->row[i].heading) * f.view.world.params->hz;
+        yaw[1][i] = yaw[0][i] + n->row[i].spin_y - m->row[i].spin_y;
     }
     struct sums before = sums_of(m, yaw[0]), after = sums_of(n, yaw[1]);
     check_rows(n);

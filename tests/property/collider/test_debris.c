@@ -34,11 +34,11 @@ static struct fixture f;
 static double energy(const struct state *now, uint32_t row, double mass)
 {
     const struct entities *e = &now->entities;
-    const struct kind *kind = &f.view.world.kinds[e->kind[row]];
+    const struct kind *kind = &f.view.world.kinds[e->row[row].kind];
     double turning = (kind->length_m * kind->length_m + kind->width_m * kind->width_m) / 12.0;
     double sum = 0.5 * mass *
-                 (e->vx[row] * e->vx[row] + e->vz[row] * e->vz[row] +
-                  turning * e->spin_y[row] * e->spin_y[row]);
+                 (e->row[row].vx * e->row[row].vx + e->row[row].vz * e->row[row].vz +
+                  turning * e->row[row].spin_y * e->row[row].spin_y);
     for (uint32_t i = 0; i < now->head->debris_count; i++) {
         const struct debris *d = &now->head->debris[i];
         double half = (double)d->half_length_m * (double)d->spin_rps;

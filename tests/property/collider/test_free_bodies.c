@@ -126,12 +126,14 @@ static double energy_of(uint32_t count, double *mass_kg)
     double sum = 0.0;
     *mass_kg = 0.0;
     for (uint32_t i = 0; i < count; i++) {
-        struct mass_properties mass = mass_properties_of(&f.view.world.kinds[e.kind[i]]);
-        struct mat3 turn = rotation_matrix(rotation_of(e.heading[i], e.pitch[i], e.roll[i]));
+        struct mass_properties mass = mass_properties_of(&f.view.world.kinds[e.row[i].kind]);
+        struct mat3 turn =
+            rotation_matrix(rotation_of(e.row[i].heading, e.row[i].pitch, e.row[i].roll));
         struct vec3 arm = rotation_apply(&turn, (struct vec3){0.0, mass.centre_m, 0.0});
-        struct vec3 spin = {e.spin_x[i], e.spin_y[i], e.spin_z[i]}, w = rotation_back(&turn, spin);
+        struct vec3 spin = {e.row[i].spin_x, e.row[i].spin_y, e.row[i].spin_z},
+                    w = rotation_back(&turn, spin);
         struct vec3 v = vec3_add(entities_velocity(&e, i), vec3_cross(spin, arm));
-        double high = e.y[i] + arm.y - FIXTURE_GROUND_M;
+        double high = e.row[i].y + arm.y - FIXTURE_GROUND_M;
         sum += mass.mass_kg * (0.5 * vec3_dot(v, v) + GRAVITY_MPS2 * high) +
                0.5 * (mass.moment.x * w.x * w.x + mass.moment.y * w.y * w.y +
                       mass.moment.z * w.z * w.z);
@@ -145,9 +147,10 @@ static double under_ground(uint32_t row)
 {
     struct entities e = steps_rows(&f);
     struct body_points points;
-    body_points_of(&f.view.world, e.kind[row], &points);
-    return -body_points_clearance(&f.view.world, NULL, &points, entities_position(&e, row),
-                                  rotation_of(e.heading[row], e.pitch[row], e.roll[row]));
+    body_points_of(&f.view.world, e.row[row].kind, &points);
+    return -body_points_clearance(
+        &f.view.world, NULL, &points, entities_position(&e, row),
+        rotation_of(e.row[row].heading, e.row[row].pitch, e.row[row].roll));
 }
 
 /* --- runs --------------------------------------------------------------------------------------*/
@@ -159,9 +162,9 @@ static uint32_t put_wreck(const char *kind, struct vec3 off, double heading, dou
         &f,
         (struct fixture_entity){.kind = kind, .at = vec3_add(middle, off), .heading_rad = heading});
     struct entities e = steps_rows(&f);
-    e.state[row] = ENTITY_WRECK;
-    e.damage[row] = DAMAGE_HIGH;
-    e.pitch[row] = pitch, e.roll[row] = roll;
+    e.row[row].state = ENTITY_WRECK;
+    e.row[row].damage = DAMAGE_HIGH;
+    e.row[row].pitch = pitch, e.row[row].roll = roll;
     return row;
 }
 
@@ -184,7 +187,7 @@ static double now_s(void)
 static struct vec3 place_of(const struct entities *e, uint32_t row)
 {
     struct vec3 at = entities_position(e, row);
-    return e->state[0] == ENTITY_ACTIVE ? vec3_sub(at, entities_position(e, 0)) : at;
+    return e->row[0].state == ENTITY_ACTIVE ? vec3_sub(at, entities_position(e, 0)) : at;
 }
 
 /* Runs so many seconds and looks at all frames. push_jpkg: what an engine can do in a frame. */
@@ -215,7 +218,7 @@ static struct seen run(uint32_t count, double seconds, double push_jpkg)
                 late[i] = at;
             else
                 seen.late_m = maths_max(seen.late_m, vec3_length(vec3_sub(at, late[i])));
-            if (e.state[i] == ENTITY_WRECK)
+            if (e.row[i].state == ENTITY_WRECK)
                 seen.under_m = maths_max(seen.under_m, under_ground(i));
         }
     }
@@ -331,11 +334,11 @@ static void test_a_tank_pushes_a_wreck(void **state)
         uint32_t row = put_wreck("truck", (struct vec3){0.5, 0.0, -9.0}, 1.2, 0.0, 0.0);
         fixture_run(&f, 1);
         steps_drive(&f, tank, 0.5, 0.0, 0.0);
-        double from = steps_rows(&f).z[row];
+        double from = steps_rows(&f).row[row].z;
         struct seen seen = run(2, 10.0, 10.0 / rates_hz[n] * 10.0);
         tell("tank pushes truck's wreck", rates_hz[n], &seen);
-        print_message("pushed by %.1f m\n", from - steps_rows(&f).z[row]);
-        assert_true(from - steps_rows(&f).z[row] > 5.0);
+        print_message("pushed by %.1f m\n", from - steps_rows(&f).row[row].z);
+        assert_true(from - steps_rows(&f).row[row].z > 5.0);
         fixture_close(&f);
         assert_true(seen.overlap_m <= OVERLAP_M);
     }
@@ -359,7 +362,7 @@ static void test_a_pushed_wreck_goes_no_farther_than_its_velocity(void **state)
             struct entities e = steps_rows(&f);
             struct vec3 was = entities_position(&e, row), before = entities_velocity(&e, row);
             uint32_t told = fixture_event_count(&f, EVENT_COLLISION);
-            e.vz[tank] = -3.0;
+            e.row[tank].vz = -3.0;
             fixture_run(&f, 1);
             e = steps_rows(&f);
             struct vec3 after = entities_velocity(&e, row);
@@ -370,7 +373,7 @@ static void test_a_pushed_wreck_goes_no_farther_than_its_velocity(void **state)
         }
         print_message("# figures: %g Hz: a pushed wreck went %.2f mm beyond its velocity\n",
                       slow_hz[n], 1e3 * worst);
-        assert_true(steps_rows(&f).z[row] < middle.z - 10.0);
+        assert_true(steps_rows(&f).row[row].z < middle.z - 10.0);
         fixture_close(&f);
         assert_true(worst <= JUMP_M);
     }
@@ -392,10 +395,10 @@ static void test_the_ground_lifts_no_sprung_vehicle_by_its_hulls(void **state)
                                         .behaviour = BEHAVIOUR_IDLE,
                                         .at = vec3_add(middle, (struct vec3){away, 0.0, 0.0})});
         struct entities e = steps_rows(&f);
-        e.flags[jeep] |= ENTITY_FLAG_CHASSIS;
-        e.roll[jeep] = -lean;
-        e.y[jeep] += 0.8 * maths_sin(lean) - 0.15;
-        e.vx[jeep] = -0.5;
+        e.row[jeep].flags |= ENTITY_FLAG_CHASSIS;
+        e.row[jeep].roll = -lean;
+        e.row[jeep].y += 0.8 * maths_sin(lean) - 0.15;
+        e.row[jeep].vx = -0.5;
         for (uint32_t frame = 0; frame < 20; frame++) {
             e = steps_rows(&f);
             struct vec3 was = entities_position(&e, jeep), before = entities_velocity(&e, jeep);
@@ -421,10 +424,11 @@ static void test_the_ground_lifts_no_sprung_vehicle_by_its_hulls(void **state)
 static struct vec3 centre_velocity(uint32_t row)
 {
     struct entities e = steps_rows(&f);
-    const struct mass_properties mass = mass_properties_of(&f.view.world.kinds[e.kind[row]]);
-    struct mat3 axes = rotation_matrix(rotation_of(e.heading[row], e.pitch[row], e.roll[row]));
+    const struct mass_properties mass = mass_properties_of(&f.view.world.kinds[e.row[row].kind]);
+    struct mat3 axes =
+        rotation_matrix(rotation_of(e.row[row].heading, e.row[row].pitch, e.row[row].roll));
     struct vec3 arm = rotation_apply(&axes, (struct vec3){0.0, mass.centre_m, 0.0});
-    struct vec3 spin = {e.spin_x[row], e.spin_y[row], e.spin_z[row]};
+    struct vec3 spin = {e.row[row].spin_x, e.row[row].spin_y, e.row[row].spin_z};
     return vec3_add(entities_velocity(&e, row), vec3_cross(spin, arm));
 }
 
@@ -446,11 +450,11 @@ static void test_a_vehicle_falls_freely_beside_a_wreck(void **state)
                                         .at = vec3_add(middle, (struct vec3){0.0, 0.0, 0.0})});
         fixture_run(&f, 1);
         struct entities e = steps_rows(&f);
-        e.flags[jeep] |= ENTITY_FLAG_CHASSIS;
-        e.y[jeep] += 1.2;
+        e.row[jeep].flags |= ENTITY_FLAG_CHASSIS;
+        e.row[jeep].y += 1.2;
         for (double away = 0.0; steps_gap(&f, &e, 0, jeep) < 0.005; away += 0.002)
-            e.x[jeep] = middle.x + away; /* as near as contacts are */
-        e.spin_x[jeep] = rate_rps;       /* its nose goes along the side of the wreck */
+            e.row[jeep].x = middle.x + away; /* as near as contacts are */
+        e.row[jeep].spin_x = rate_rps;       /* its nose goes along the side of the wreck */
         for (uint32_t frame = 0; frame < 14; frame++) {
             struct vec3 before = centre_velocity(jeep);
             fixture_run(&f, 1);

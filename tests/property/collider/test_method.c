@@ -38,7 +38,7 @@ static struct vec3 beside(const struct small_world *w, uint32_t row, enum small_
                           uint64_t *random)
 {
     struct vec3 at = w->path[row].at;
-    double reach = w->kinds[w->e.kind[row]].radius_m + w->kinds[kind].radius_m;
+    double reach = w->kinds[w->e.row[row].kind].radius_m + w->kinds[kind].radius_m;
     double *axis[] = {&at.x, &at.y, &at.z};
     *axis[fixture_random(random) % 3] += fixture_random(random) & 1 ? reach : -reach;
     return at;
@@ -64,11 +64,11 @@ static void draw_row(struct small_world *w, const struct spread *place, uint64_t
     }
     uint32_t row = small_world_row(w, kind, at, way);
     if (fixture_random(random) % 10 == 0)
-        w->e.state[row] = ENTITY_FREE;
+        w->e.row[row].state = ENTITY_FREE;
     if (kind == SMALL_ROUND && row > 0) { /* shot by another row, or by an entity that is gone */
-        w->e.owner_slot[row] = (uint32_t)(fixture_random(random) % row);
-        w->e.owner_id[row] =
-            w->e.owner_slot[row] + 1 + (fixture_random(random) % 4 == 0 ? 1000u : 0u);
+        w->e.row[row].owner_slot = (uint32_t)(fixture_random(random) % row);
+        w->e.row[row].owner_id =
+            w->e.row[row].owner_slot + 1 + (fixture_random(random) % 4 == 0 ? 1000u : 0u);
     }
 }
 

@@ -24,7 +24,7 @@ static double gap_of(const struct entities *e, uint32_t a, uint32_t b)
 {
     struct vec3 off = vec3_sub(entities_position(e, b), entities_position(e, a));
     const struct kind *known = f.view.world.kinds;
-    return vec3_length(off) - known[e->kind[a]].radius_m - known[e->kind[b]].radius_m;
+    return vec3_length(off) - known[e->row[a].kind].radius_m - known[e->row[b].kind].radius_m;
 }
 
 static void put_ring(uint64_t *random)
@@ -46,10 +46,10 @@ static void press(uint64_t *random)
 {
     struct entities e = steps_rows(&f);
     for (uint32_t i = 0; i < BODIES; i++) {
-        double x = 25000.0 - e.x[i], z = 25000.0 - e.z[i], far = sqrt(x * x + z * z);
+        double x = 25000.0 - e.row[i].x, z = 25000.0 - e.row[i].z, far = sqrt(x * x + z * z);
         double speed = fixture_uniform(random, 4.0, 12.0);
-        e.vx[i] = speed * x / far;
-        e.vz[i] = speed * z / far;
+        e.row[i].vx = speed * x / far;
+        e.row[i].vz = speed * z / far;
     }
 }
 

@@ -64,12 +64,12 @@ static void put(struct vec3 at, struct vec3 velocity, double spin_rps, uint64_t 
         fixture_put(&f, (struct fixture_entity){.kind = kind, .at = at, .velocity = velocity});
     struct entities e = steps_rows(&f);
     struct vec3 spin = vec3_scale(direction(random), spin_rps);
-    e.heading[row] = fixture_uniform(random, 0.0, TWO_PI);
-    e.pitch[row] = fixture_uniform(random, -1.5, 1.5);
-    e.roll[row] = fixture_uniform(random, -PI, PI);
-    e.spin_x[row] = spin.x;
-    e.spin_y[row] = spin.y;
-    e.spin_z[row] = spin.z;
+    e.row[row].heading = fixture_uniform(random, 0.0, TWO_PI);
+    e.row[row].pitch = fixture_uniform(random, -1.5, 1.5);
+    e.row[row].roll = fixture_uniform(random, -PI, PI);
+    e.row[row].spin_x = spin.x;
+    e.row[row].spin_y = spin.y;
+    e.row[row].spin_z = spin.z;
 }
 
 /* Two bodies that fly at each other and spin by up to most_rps. Returns the time in which they come
@@ -102,12 +102,12 @@ struct spinner {
 static struct spinner spinner_of(uint32_t row)
 {
     struct entities e = steps_rows(&f);
-    const struct kind *kind = &f.view.world.kinds[e.kind[row]];
-    struct vec3 spin = {e.spin_x[row], e.spin_y[row], e.spin_z[row]};
+    const struct kind *kind = &f.view.world.kinds[e.row[row].kind];
+    struct vec3 spin = {e.row[row].spin_x, e.row[row].spin_y, e.row[row].spin_z};
     struct spinner body = {.kind = kind,
                            .at = entities_position(&e, row),
                            .velocity = entities_velocity(&e, row),
-                           .q = rotation_of(e.heading[row], e.pitch[row], e.roll[row]),
+                           .q = rotation_of(e.row[row].heading, e.row[row].pitch, e.row[row].roll),
                            .moment = mass_properties_of(kind).moment,
                            .spin_rps = vec3_length(spin)};
     const struct mat3 turn = rotation_matrix(body.q);
@@ -156,10 +156,11 @@ static struct sums sums_of(void)
     struct entities e = steps_rows(&f);
     struct sums sums = {.energy = 0.0};
     for (uint32_t i = 0; i < 2; i++) {
-        const struct mass_properties body = mass_properties_of(&f.view.world.kinds[e.kind[i]]);
-        struct mat3 turn = rotation_matrix(rotation_of(e.heading[i], e.pitch[i], e.roll[i]));
+        const struct mass_properties body = mass_properties_of(&f.view.world.kinds[e.row[i].kind]);
+        struct mat3 turn =
+            rotation_matrix(rotation_of(e.row[i].heading, e.row[i].pitch, e.row[i].roll));
         struct vec3 spin =
-            rotation_back(&turn, (struct vec3){e.spin_x[i], e.spin_y[i], e.spin_z[i]});
+            rotation_back(&turn, (struct vec3){e.row[i].spin_x, e.row[i].spin_y, e.row[i].spin_z});
         struct vec3 momentum = vec3_scale(entities_velocity(&e, i), body.mass_kg);
         struct vec3 orbit = vec3_cross(vec3_sub(entities_position(&e, i), middle), momentum);
         struct vec3 own = {body.moment.x * spin.x, body.moment.y * spin.y, body.moment.z * spin.z};

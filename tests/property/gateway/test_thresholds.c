@@ -86,7 +86,8 @@ static void compare_row(struct errors *errors, const struct entities *e, uint32_
                         uint64_t now_ns)
 {
     const struct entity_sent *sent = &entities.sent[row];
-    struct mat3 turn = rotation_matrix(rotation_of(e->heading[row], e->pitch[row], e->roll[row]));
+    struct mat3 turn =
+        rotation_matrix(rotation_of(e->row[row].heading, e->row[row].pitch, e->row[row].roll));
     struct mat3 axes = local_frame_axes(&entities.frame, entities_position(e, row));
     struct mat3 right = local_frame_ecef_turn(&axes, &turn), shown;
     struct vec3 at = local_frame_ecef(&entities.frame, entities_position(e, row)), place;
@@ -107,8 +108,8 @@ static void compare(struct errors errors[DOMAIN_COUNT], uint64_t now_ns)
     const struct entities *e = &poses.entities;
     assert_int_equal(snapshot_take_poses(&poses, &f.view), 0); /* some cruise */
     for (uint32_t row = 0; row < poses.head.used; row++) {
-        if (entities.sent[row].id != 0 && entities.sent[row].id == e->id[row])
-            compare_row(&errors[f.view.world.kinds[e->kind[row]].domain], e, row, now_ns);
+        if (entities.sent[row].id != 0 && entities.sent[row].id == e->row[row].id)
+            compare_row(&errors[f.view.world.kinds[e->row[row].kind].domain], e, row, now_ns);
     }
 }
 

@@ -59,19 +59,19 @@ static uint32_t check_rows(void)
     uint32_t rows = 0;
     for (uint32_t i = 0; i < snapshot.head.used; i++) {
         const struct motion_told *told = &table.told[i];
-        assert_int_equal(told->marks.state, e->state[i]);
-        if (e->state[i] == ENTITY_FREE)
+        assert_int_equal(told->marks.state, e->row[i].state);
+        if (e->row[i].state == ENTITY_FREE)
             continue;
         double after_s = (double)(snapshot.head.tick - told->tick) * world_dt_s(world);
         struct told_motion now = told_motion_at(&told->motion, after_s);
         struct vec3 off = vec3_sub(now.at, entities_position(e, i));
         double rise_m = fabs(off.y);
         off.y = 0.0;
-        assert_int_equal(told->id, e->id[i]);
-        assert_int_equal(told->marks.damage, e->damage[i]);
+        assert_int_equal(told->id, e->row[i].id);
+        assert_int_equal(told->marks.damage, e->row[i].damage);
         assert_true(vec3_length(off) <= MOTION_TABLE_OFF_M + 1e-3); /* floats, and chords */
         assert_true(rise_m <= MOTION_TABLE_OFF_M + GROUND);
-        assert_true(fabs(maths_wrap_half(now.heading_rad - e->heading[i])) <=
+        assert_true(fabs(maths_wrap_half(now.heading_rad - e->row[i].heading)) <=
                     MOTION_TABLE_OFF_RAD + 1e-5);
         rows++;
     }

@@ -83,7 +83,7 @@ static double stops_in(const char *kind, double speed_mps)
     steps_drive(&f, row, 0.0, 0.0, 0.0);
     for (int frame = 0; frame < 60 * HZ && velocity_of(row).x > 1.0; frame++)
         fixture_run(&f, 1);
-    return steps_rows(&f).x[row] - 25000.0;
+    return steps_rows(&f).row[row].x - 25000.0;
 }
 
 static void test_aircraft(void **state)
@@ -105,8 +105,8 @@ static uint32_t put_wreck(const char *kind, double height_m, double speed_mps)
 {
     uint32_t row = put(kind, height_m, speed_mps, BEHAVIOUR_HOLD);
     struct entities e = steps_rows(&f);
-    e.state[row] = ENTITY_WRECK;
-    e.behaviour[row] = e.order[row] = BEHAVIOUR_IDLE;
+    e.row[row].state = ENTITY_WRECK;
+    e.row[row].behaviour = e.row[row].order = BEHAVIOUR_IDLE;
     return row;
 }
 
@@ -114,22 +114,22 @@ static double slide(const char *kind, double speed_mps)
 {
     uint32_t row = put_wreck(kind, 2.0, speed_mps);
     seconds(60.0);
-    return steps_rows(&f).x[row] - 25000.0;
+    return steps_rows(&f).row[row].x - 25000.0;
 }
 
 /* The most by which a wreck's pitch, roll or heading changes in a frame, over 30 s [degrees]. */
 static double hardest_turn(const char *kind, double speed_mps)
 {
     uint32_t row = put_wreck(kind, 40.0, speed_mps);
-    steps_rows(&f).spin_x[row] = 2.0;
-    steps_rows(&f).spin_z[row] = 1.0;
+    steps_rows(&f).row[row].spin_x = 2.0;
+    steps_rows(&f).row[row].spin_z = 1.0;
     double hardest = 0.0;
     for (int frame = 0; frame < 30 * HZ; frame++) {
         struct entities e = steps_rows(&f);
-        struct quat before = rotation_of(e.heading[row], e.pitch[row], e.roll[row]);
+        struct quat before = rotation_of(e.row[row].heading, e.row[row].pitch, e.row[row].roll);
         fixture_run(&f, 1);
         e = steps_rows(&f);
-        struct quat after = rotation_of(e.heading[row], e.pitch[row], e.roll[row]);
+        struct quat after = rotation_of(e.row[row].heading, e.row[row].pitch, e.row[row].roll);
         double cosine =
             fabs(before.w * after.w + before.x * after.x + before.y * after.y + before.z * after.z);
         double angle = 2.0 * acos(maths_min(cosine, 1.0));

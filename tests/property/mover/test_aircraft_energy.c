@@ -32,18 +32,19 @@ static uint32_t put(double height_m, struct vec3 velocity)
 static void fly(uint32_t row, double turn, double climb, double brake)
 {
     struct entities e = steps_rows(&f);
-    e.behaviour[row] = BEHAVIOUR_DRIVEN;
-    e.until_tick[row] = UINT32_MAX;
-    e.throttle[row] = 0.0f;
-    e.dodge[row] = 1.0f;
-    e.steer[row] = (float)turn, e.climb[row] = (float)climb, e.brake[row] = (float)brake;
+    e.row[row].behaviour = BEHAVIOUR_DRIVEN;
+    e.row[row].until_tick = UINT32_MAX;
+    e.row[row].throttle = 0.0f;
+    e.row[row].dodge = 1.0f;
+    e.row[row].steer = (float)turn, e.row[row].climb = (float)climb,
+    e.row[row].brake = (float)brake;
 }
 
 static double energy_of(uint32_t row)
 {
     struct entities e = steps_rows(&f);
     struct vec3 v = entities_velocity(&e, row);
-    return 0.5 * vec3_dot(v, v) + GRAVITY_MPS2 * e.y[row];
+    return 0.5 * vec3_dot(v, v) + GRAVITY_MPS2 * e.row[row].y;
 }
 
 /* Returns the greatest rise of the energy in a frame over half a minute [J/kg]. */
@@ -93,20 +94,20 @@ static void test_without_throttle_it_glides_stalls_and_comes_down(void **state)
     int frame = 0;
     (void)state;
     fly(row, 0.0, 0.0, 0.0);
-    for (; frame < (int)(300.0 * hz) && steps_rows(&f).state[row] == ENTITY_ACTIVE; frame++) {
+    for (; frame < (int)(300.0 * hz) && steps_rows(&f).row[row].state == ENTITY_ACTIVE; frame++) {
         struct entities e = steps_rows(&f);
         double speed = vec3_length(entities_velocity(&e, row));
-        if (begins == 0.0 && e.vy[row] < -10.0)
-            begins = e.x[row];
+        if (begins == 0.0 && e.row[row].vy < -10.0)
+            begins = e.row[row].x;
         slowest = maths_min(slowest, speed);
-        lowest_nose = maths_min(lowest_nose, e.pitch[row]);
+        lowest_nose = maths_min(lowest_nose, e.row[row].pitch);
         fixture_run(&f, 1);
     }
     struct entities e = steps_rows(&f);
-    double ratio = (e.x[row] - begins) / 2000.0;
+    double ratio = (e.row[row].x - begins) / 2000.0;
     print_message("down after %.0f s; glides 1 : %.1f; slowest %.1f m/s; nose %.0f degrees\n",
                   frame / hz, ratio, slowest, lowest_nose * DEG_PER_RAD);
-    assert_true(e.state[row] != ENTITY_ACTIVE);
+    assert_true(e.row[row].state != ENTITY_ACTIVE);
     assert_true(ratio > 3.0 && ratio < 6.0);
     assert_true(slowest < stall && slowest > 0.8 * stall);
     assert_true(lowest_nose < -8.0 * RAD_PER_DEG);
@@ -122,9 +123,9 @@ static void test_pulling_up_without_throttle_gains_no_height_in_the_end(void **s
     fly(row, 0.0, 1.0, 0.0);
     for (int frame = 0; frame < (int)(60.0 * hz); frame++) {
         fixture_run(&f, 1);
-        highest = maths_max(highest, steps_rows(&f).y[row] - FIXTURE_GROUND_M - 2000.0);
+        highest = maths_max(highest, steps_rows(&f).row[row].y - FIXTURE_GROUND_M - 2000.0);
     }
-    double lost = 2000.0 + FIXTURE_GROUND_M - steps_rows(&f).y[row];
+    double lost = 2000.0 + FIXTURE_GROUND_M - steps_rows(&f).row[row].y;
     print_message("it rises by %.0f m, then it is %.0f m lower after a minute\n", highest, lost);
     assert_true(highest < 100.0 * 100.0 / (2.0 * GRAVITY_MPS2) && lost > 500.0);
 }
@@ -147,8 +148,8 @@ static double greatest_power(const char *kind, double hz, uint64_t *random)
     for (int window = 0; window < 10; window++) {
         double before = energy_of(row);
         fly(row, fixture_uniform(random, -1.0, 1.0), fixture_uniform(random, -1.0, 1.0), 0.0);
-        steps_rows(&f).throttle[row] = 1.0f;
-        steps_rows(&f).dodge[row] = 0.0f;
+        steps_rows(&f).row[row].throttle = 1.0f;
+        steps_rows(&f).row[row].dodge = 0.0f;
         fixture_run(&f, (uint32_t)(3.0 * hz));
         most = maths_max(most, (energy_of(row) - before) / 3.0);
     }

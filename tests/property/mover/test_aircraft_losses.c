@@ -48,10 +48,10 @@ static struct losses losses_of(enum force force, uint32_t rows)
     struct entities e = steps_rows(&f);
     struct losses losses = {0, 0};
     for (uint32_t row = 0; row < rows; row++) {
-        if (e.force[row] != force || f.view.world.kinds[e.kind[row]].domain != DOMAIN_AIR)
+        if (e.row[row].force != force || f.view.world.kinds[e.row[row].kind].domain != DOMAIN_AIR)
             continue;
         losses.of++;
-        losses.lost += e.state[row] != ENTITY_ACTIVE;
+        losses.lost += e.row[row].state != ENTITY_ACTIVE;
     }
     return losses;
 }

@@ -52,14 +52,14 @@ static double fly(const char *kind, double far_m, double *speed_mps)
     struct entities e = steps_rows(&f);
     int frames = 0;
     double before = start;
-    while (e.x[row] - start < far_m && frames < 600) {
-        before = e.x[row];
+    while (e.row[row].x - start < far_m && frames < 600) {
+        before = e.row[row].x;
         fixture_run(&f, 1);
         e = steps_rows(&f);
         frames++;
     }
     *speed_mps = vec3_length(entities_velocity(&e, row));
-    return ((double)frames - (e.x[row] - start - far_m) / (e.x[row] - before)) / 60.0;
+    return ((double)frames - (e.row[row].x - start - far_m) / (e.row[row].x - before)) / 60.0;
 }
 
 static void test_flight(void **state)
@@ -107,7 +107,7 @@ static double hits(const char *shooter, double square_m, double speed, double ra
         fixture_put(&f, (struct fixture_entity){.kind = shooter,
                                                 .at = {25000.0, FIXTURE_GROUND_M, 25000.0},
                                                 .velocity = {0.0, 0.0, -speed * most}});
-    steps_rows(&f).rounds[row] = 2 * ROUNDS;
+    steps_rows(&f).row[row].rounds = 2 * ROUNDS;
     steps_serial_context(&f, &step, &context);
     struct vec3 mean = {0.0, 0.0, 0.0};
     uint32_t used = f.view.m.head->used, in = 0;
@@ -196,18 +196,18 @@ static void turn_turret(const char *kind, double rate, double low, double high)
         &f, (struct fixture_entity){.kind = kind, .at = {25000.0, FIXTURE_GROUND_M, 25000.0}});
     char what[64];
     steps_drive(&f, row, 0.0, 0.0, 0.0);
-    steps_rows(&f).traverse[row] = 1.0f;
-    double before = (double)steps_rows(&f).turret[row];
+    steps_rows(&f).row[row].traverse = 1.0f;
+    double before = (double)steps_rows(&f).row[row].turret;
     fixture_run(&f, 60);
     snprintf(what, sizeof what, "%s, turret turns in a second [degrees]", kind);
-    row_within(what, rate, 0.05, ((double)steps_rows(&f).turret[row] - before) / RAD_PER_DEG);
+    row_within(what, rate, 0.05, ((double)steps_rows(&f).row[row].turret - before) / RAD_PER_DEG);
     for (int end = 0; end < 2; end++) {
         double real = end ? high : low;
-        steps_rows(&f).elevate[row] = end ? 1.0f : -1.0f;
+        steps_rows(&f).row[row].elevate = end ? 1.0f : -1.0f;
         fixture_run(&f, 300);
-        steps_rows(&f).until_tick[row] = UINT32_MAX;
+        steps_rows(&f).row[row].until_tick = UINT32_MAX;
         row_of(end ? "  gun up [degrees]" : "  gun down [degrees]", real, real - 0.5, real + 0.5,
-               (double)steps_rows(&f).gun[row] / RAD_PER_DEG);
+               (double)steps_rows(&f).row[row].gun / RAD_PER_DEG);
     }
 }
 

@@ -164,7 +164,7 @@ static void test_scripted_jets_follow_the_ground(void **state)
             for (uint32_t row = 0; row < JETS; row++) {
                 struct vec3 at = steps_position(&f, row);
                 over[count] = at.y - steps_ground_at(&f, at.x, at.z);
-                count += steps_rows(&f).state[row] == ENTITY_ACTIVE;
+                count += steps_rows(&f).row[row].state == ENTITY_ACTIVE;
             }
         }
         qsort(over, count, sizeof over[0], by_size);
@@ -198,7 +198,7 @@ static uint32_t fly_low(uint64_t seed, void open(uint64_t seed, const char *grou
             for (uint32_t row = 0; row < HOVERING && second >= 60; row++) {
                 struct vec3 at = steps_position(&f, row);
                 over[count] = at.y - steps_ground_at(&f, at.x, at.z);
-                count += steps_rows(&f).state[row] == ENTITY_ACTIVE;
+                count += steps_rows(&f).row[row].state == ENTITY_ACTIVE;
             }
         }
         qsort(over, count, sizeof over[0], by_size);

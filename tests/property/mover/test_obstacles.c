@@ -33,10 +33,11 @@ static double drives(const char *work, const char *kind, double throttle, enum g
     uint32_t row = fixture_put(&f, (struct fixture_entity){.kind = kind,
                                                            .at = {25000.0, 100.0, 25000.0},
                                                            .behaviour = BEHAVIOUR_DRIVEN});
-    for (uint32_t frame = 0; frame < 60 * HZ && steps_rows(&f).state[row] == ENTITY_ACTIVE; frame++)
+    for (uint32_t frame = 0; frame < 60 * HZ && steps_rows(&f).row[row].state == ENTITY_ACTIVE;
+         frame++)
         steps_pedals(&f, row, throttle, 0.0, gear);
     struct entities e = steps_rows(&f);
-    double way = e.state[row] == ENTITY_ACTIVE ? 25000.0 - e.z[row] : -1.0;
+    double way = e.row[row].state == ENTITY_ACTIVE ? 25000.0 - e.row[row].z : -1.0;
     fixture_close(&f);
     return way;
 }
@@ -115,13 +116,14 @@ static bool holds_side_slope(const char *kind, double percent)
         &f, (struct fixture_entity){.kind = kind,
                                     .at = {25000.0, steps_ground_at(&f, 25000.0, 25000.0), 25000.0},
                                     .behaviour = BEHAVIOUR_DRIVEN});
-    steps_rows(&f).roll[row] = -maths_atan2(percent, 100.0);
+    steps_rows(&f).row[row].roll = -maths_atan2(percent, 100.0);
     double share = 3.0 / steps_kind(&f, kind)->max_speed_mps;
-    for (uint32_t frame = 0; frame < 8 * HZ && steps_rows(&f).state[row] == ENTITY_ACTIVE; frame++)
+    for (uint32_t frame = 0; frame < 8 * HZ && steps_rows(&f).row[row].state == ENTITY_ACTIVE;
+         frame++)
         steps_pedals(&f, row, share, 0.0, GEAR_AUTOMATIC);
     struct entities e = steps_rows(&f);
-    bool held =
-        e.state[row] == ENTITY_ACTIVE && fabs(e.x[row] - 25000.0) < 3.0 && e.z[row] < 24985.0;
+    bool held = e.row[row].state == ENTITY_ACTIVE && fabs(e.row[row].x - 25000.0) < 3.0 &&
+                e.row[row].z < 24985.0;
     fixture_close(&f);
     return held;
 }
@@ -230,18 +232,18 @@ static void test_deep_water_slows(void **state)
             steps_pedals(&f, row, 1.0, 0.0, GEAR_AUTOMATIC);
             struct entities e = steps_rows(&f);
             double speed = steps_speed(&f, row), lost = (before - speed) * HZ;
-            double *most = e.y[row] > 100.5 && e.z[row] < 24840.0 ? &in_air : &worst;
+            double *most = e.row[row].y > 100.5 && e.row[row].z < 24840.0 ? &in_air : &worst;
             *most = maths_max(*most, lost);
             before = speed;
         }
-        double at = 24850.0 - steps_rows(&f).z[row];
+        double at = 24850.0 - steps_rows(&f).row[row].z;
         printf("| jeep    | deep ford, %s | stands at %4.1f m, at most %3.0f m/s2\n",
                flies ? "flies in " : "drives in", at, worst);
         assert_true(in_air < 1.0 && worst < 150.0 && steps_speed(&f, row) < 0.05);
         assert_true(flies ? at > 25.0 && at < 35.0 : at > 14.0 && at < 26.0);
         for (uint32_t frame = 0; frame < 30 * HZ && !flies; frame++)
             steps_pedals(&f, row, -1.0, 0.0, GEAR_AUTOMATIC);
-        assert_true(flies || 24850.0 - steps_rows(&f).z[row] < 5.0);
+        assert_true(flies || 24850.0 - steps_rows(&f).row[row].z < 5.0);
         fixture_close(&f);
     }
 }

@@ -121,7 +121,7 @@ static uint32_t count_laid(const struct fixture *f)
     const struct state state = fixture_state(f);
     uint32_t count = 0;
     for (uint32_t i = 0; i < state.head->used; i++)
-        count += state.entities.target_id[i] != 0 && (rows->resting[i / 64] >> i % 64 & 1);
+        count += state.entities.row[i].target_id != 0 && (rows->resting[i / 64] >> i % 64 & 1);
     return count;
 }
 

@@ -35,8 +35,8 @@ static uint32_t put_pair(double distance_m, double bearing, uint32_t *tank)
                                     .heading_rad = 2.0 * bearing,
                                     .force = FORCE_RED});
     struct entities e = steps_rows(&f);
-    e.behaviour[row] = e.order[row] = BEHAVIOUR_IDLE;
-    e.flags[row] = ENTITY_FLAG_FIRE_AT_WILL | ENTITY_FLAG_STAND;
+    e.row[row].behaviour = e.row[row].order = BEHAVIOUR_IDLE;
+    e.row[row].flags = ENTITY_FLAG_FIRE_AT_WILL | ENTITY_FLAG_STAND;
     steps_kind(&f, "tank")->resistance_j = 1e13; /* it stands as a target */
     return row;
 }
@@ -58,7 +58,7 @@ static void fight(double distance_m, uint32_t run, struct salvos *salvos)
             continue;
         salvos->fired++;
         salvos->hits += end->detonation.struck == STRUCK_VEHICLE &&
-                        end->detonation.struck_party.id == steps_rows(&f).id[tank];
+                        end->detonation.struck_party.id == steps_rows(&f).row[tank].id;
     }
     fixture_close(&f);
 }

@@ -85,18 +85,18 @@ static struct ending drive(struct fixture *f, uint32_t hz, const struct manoeuvr
                                    .at = {drawn->x, steps_ground_at(f, drawn->x, 25000.0), 25000.0},
                                    .velocity = {0.0, 0.0, -drawn->mps},
                                    .behaviour = BEHAVIOUR_DRIVEN});
-    for (int n = 0; n < CHANGES && steps_rows(f).state[row] == ENTITY_ACTIVE; n++) {
+    for (int n = 0; n < CHANGES && steps_rows(f).row[row].state == ENTITY_ACTIVE; n++) {
         struct entities e = steps_rows(f);
-        e.throttle[row] = drawn->throttle[n];
-        e.steer[row] = drawn->steer[n];
-        e.climb[row] = drawn->hand[n];
-        e.brake[row] = drawn->brake[n];
+        e.row[row].throttle = drawn->throttle[n];
+        e.row[row].steer = drawn->steer[n];
+        e.row[row].climb = drawn->hand[n];
+        e.row[row].brake = drawn->brake[n];
         fixture_run(f, hz / 5);
     }
     kind->centre_height_m = height;
     kind->resistance_j = resistance;
     struct entities e = steps_rows(f);
-    return (struct ending){e.state[row] == ENTITY_WRECK, e.x[row], e.z[row]};
+    return (struct ending){e.row[row].state == ENTITY_WRECK, e.row[row].x, e.row[row].z};
 }
 
 static void test_10_and_60_hz_agree_on_what_turns_over(void **state)
@@ -213,18 +213,20 @@ static const char *lanes(uint64_t seed, uint32_t hz)
 
 static bool same(const struct entities *a, const struct entities *b, uint32_t i)
 {
-    return a->x[i] == b->x[i] && a->y[i] == b->y[i] && a->z[i] == b->z[i] && a->vx[i] == b->vx[i] &&
-           a->vy[i] == b->vy[i] && a->vz[i] == b->vz[i] && a->heading[i] == b->heading[i] &&
-           a->pitch[i] == b->pitch[i] && a->roll[i] == b->roll[i] && a->harm_j[i] == b->harm_j[i] &&
-           a->state[i] == b->state[i];
+    return a->row[i].x == b->row[i].x && a->row[i].y == b->row[i].y && a->row[i].z == b->row[i].z &&
+           a->row[i].vx == b->row[i].vx && a->row[i].vy == b->row[i].vy &&
+           a->row[i].vz == b->row[i].vz && a->row[i].heading == b->row[i].heading &&
+           a->row[i].pitch == b->row[i].pitch && a->row[i].roll == b->row[i].roll &&
+           a->row[i].harm_j == b->row[i].harm_j && a->row[i].state == b->row[i].state;
 }
 
 /* Returns true if the row is a body on its springs, or stands and waits for its script. One that
  * has been calm goes back to the ground. */
 static bool is_exact(const struct entities *e, uint32_t i, uint32_t tick, uint32_t hz)
 {
-    bool calm = tick - e->jolt_tick[i] >= (uint32_t)((CHASSIS_CALM_S - 0.1) * hz);
-    return ((e->flags[i] & ENTITY_FLAG_CHASSIS) && !calm) || e->behaviour[i] == BEHAVIOUR_SCRIPT;
+    bool calm = tick - e->row[i].jolt_tick >= (uint32_t)((CHASSIS_CALM_S - 0.1) * hz);
+    return ((e->row[i].flags & ENTITY_FLAG_CHASSIS) && !calm) ||
+           e->row[i].behaviour == BEHAVIOUR_SCRIPT;
 }
 
 /* A script drives a vehicle over works to the same bit, and so does its agent that backs off from
@@ -244,23 +246,23 @@ static void test_scripts_drive_alike_to_the_bit(void **state)
         fixture_run(&slow, 1);
         struct entities a = steps_rows(&fast), b = steps_rows(&slow);
         for (uint32_t i = 0; i < LANES; i++) {
-            const struct kind *kind = &fast.view.world.kinds[a.kind[i]];
-            bool wreck = a.state[i] == ENTITY_WRECK || b.state[i] == ENTITY_WRECK;
+            const struct kind *kind = &fast.view.world.kinds[a.row[i].kind];
+            bool wreck = a.row[i].state == ENTITY_WRECK || b.row[i].state == ENTITY_WRECK;
             bool breaks = disabled_drive(kind, &a, i) || disabled_drive(kind, &b, i);
             if (done[i])
                 continue;
-            if (a.state[i] != b.state[i])
+            if (a.row[i].state != b.row[i].state)
                 fail_msg("lane %u, a %s, at %.1f s: %s at 60 Hz, %s at 10 Hz", i, kind->name,
-                         0.1 * tenth, a.state[i] == ENTITY_WRECK ? "a wreck" : "upright",
-                         b.state[i] == ENTITY_WRECK ? "a wreck" : "upright");
+                         0.1 * tenth, a.row[i].state == ENTITY_WRECK ? "a wreck" : "upright",
+                         b.row[i].state == ENTITY_WRECK ? "a wreck" : "upright");
             over += wreck;
             broken += breaks && !wreck;
-            backed_off += a.behaviour[i] == BEHAVIOUR_BACK_OFF;
+            backed_off += a.row[i].behaviour == BEHAVIOUR_BACK_OFF;
             done[i] =
                 wreck || breaks || !is_exact(&a, i, 6 * tenth, 60) || !is_exact(&b, i, tenth, 10);
             if (!done[i] && !same(&a, &b, i))
                 fail_msg("lane %u, a %s, at %.1f s: %.3g m apart", i, kind->name, 0.1 * tenth,
-                         hypot(a.x[i] - b.x[i], a.z[i] - b.z[i]));
+                         hypot(a.row[i].x - b.row[i].x, a.row[i].z - b.row[i].z));
             compared += !done[i];
         }
     }
@@ -270,7 +272,7 @@ static void test_scripts_drive_alike_to_the_bit(void **state)
     assert_true(backed_off > 100u);
     struct entities a = steps_rows(&fast), b = steps_rows(&slow);
     for (uint32_t i = 0; i < LANES; i++)
-        differ += a.state[i] != b.state[i];
+        differ += a.row[i].state != b.row[i].state;
     assert_int_equal(differ, 0);
     assert_true(over > 0);
     fixture_close(&fast);

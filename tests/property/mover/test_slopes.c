@@ -33,11 +33,11 @@ static void open_slope(double rise, uint64_t *random)
                     (struct fixture_entity){.kind = kinds[i],
                                             .at = {25000.0, steps_ground_at(&f, 25000.0, z), z},
                                             .heading_rad = fixture_uniform(random, 0.0, TWO_PI)});
-        steps_rows(&f).behaviour[i] = steps_rows(&f).order[i] = BEHAVIOUR_IDLE;
+        steps_rows(&f).row[i].behaviour = steps_rows(&f).row[i].order = BEHAVIOUR_IDLE;
     }
     fixture_run(&f, 2); /* they take the pose of the ground */
     for (uint32_t i = ROWS / 2; i < ROWS; i++)
-        steps_rows(&f).state[i] = ENTITY_WRECK;
+        steps_rows(&f).row[i].state = ENTITY_WRECK;
     fixture_forget_copies(&f);
     fixture_continue(&f, (uint32_t)(SETTLE_S * HZ));
 }

@@ -46,8 +46,8 @@ static void put_one(struct fixture *f, uint64_t *random, const char *name, enum 
                                                .heading_rad = heading,
                                                .force = force});
     struct entities e = steps_rows(f);
-    e.behaviour[row] = e.order[row] = BEHAVIOUR_IDLE;
-    e.flags[row] = ENTITY_FLAG_FIRE_AT_WILL;
+    e.row[row].behaviour = e.row[row].order = BEHAVIOUR_IDLE;
+    e.row[row].flags = ENTITY_FLAG_FIRE_AT_WILL;
 }
 
 static void open_battle(struct fixture *f, uint64_t seed)

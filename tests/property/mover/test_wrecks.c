@@ -49,27 +49,27 @@ static double rough_height(double x, double z, const void *context)
 
 static struct quat pose_of(const struct entities *e, uint32_t i)
 {
-    return rotation_of(e->heading[i], e->pitch[i], e->roll[i]);
+    return rotation_of(e->row[i].heading, e->row[i].pitch, e->row[i].roll);
 }
 
 static double energy_of(const struct entities *e, uint32_t i)
 {
-    const struct mass_properties mass = mass_properties_of(&f.view.world.kinds[e->kind[i]]);
+    const struct mass_properties mass = mass_properties_of(&f.view.world.kinds[e->row[i].kind]);
     struct mat3 turn = rotation_matrix(pose_of(e, i));
-    struct vec3 spin = {e->spin_x[i], e->spin_y[i], e->spin_z[i]};
+    struct vec3 spin = {e->row[i].spin_x, e->row[i].spin_y, e->row[i].spin_z};
     struct vec3 arm = rotation_apply(&turn, (struct vec3){0.0, mass.centre_m, 0.0});
     struct vec3 v = vec3_add(entities_velocity(e, i), vec3_cross(spin, arm));
     struct vec3 w = rotation_back(&turn, spin);
     return 0.5 * mass.mass_kg * vec3_dot(v, v) +
            0.5 *
                (mass.moment.x * w.x * w.x + mass.moment.y * w.y * w.y + mass.moment.z * w.z * w.z) +
-           mass.mass_kg * GRAVITY_MPS2 * (e->y[i] + arm.y);
+           mass.mass_kg * GRAVITY_MPS2 * (e->row[i].y + arm.y);
 }
 
 static double clearance_of(const struct entities *e, uint32_t i)
 {
     struct body_points points;
-    body_points_of(&f.view.world, e->kind[i], &points);
+    body_points_of(&f.view.world, e->row[i].kind, &points);
     return body_points_clearance(&f.view.world, &f.stepper.mover.craters, &points,
                                  entities_position(e, i), pose_of(e, i));
 }
@@ -81,7 +81,7 @@ static double depth_of(const struct entities *e, uint32_t i)
 
 static double spin_of(const struct entities *e, uint32_t i)
 {
-    return vec3_length((struct vec3){e->spin_x[i], e->spin_y[i], e->spin_z[i]});
+    return vec3_length((struct vec3){e->row[i].spin_x, e->row[i].spin_y, e->row[i].spin_z});
 }
 
 static bool still(const struct entities *e, uint32_t i)
@@ -121,7 +121,7 @@ static void note_before(uint32_t i)
 static void check_frame(uint32_t i, double dt_s)
 {
     struct entities e = steps_rows(&f);
-    const struct kind *kind = &f.view.world.kinds[e.kind[i]];
+    const struct kind *kind = &f.view.world.kinds[e.row[i].kind];
     double lift = kind->mass_kg * GRAVITY_MPS2 * maths_max(0.0, before[i].depth - SLOP_M) * 1.5;
     double gain = energy_of(&e, i) - before[i].energy - lift;
     double depth = depth_of(&e, i);
@@ -160,18 +160,18 @@ static void put_wreck(uint64_t *random, uint32_t i, double fastest)
     struct entities e = steps_rows(&f);
     struct body_points points;
     assert_int_equal(row, i);
-    e.state[i] = ENTITY_WRECK;
-    e.behaviour[i] = e.order[i] = BEHAVIOUR_IDLE;
-    e.heading[i] = fixture_uniform(random, 0.0, TWO_PI);
-    e.pitch[i] = fixture_uniform(random, -1.5, 1.5);
-    e.roll[i] = fixture_uniform(random, -3.1, 3.1);
-    e.spin_x[i] = fixture_uniform(random, -3.0, 3.0);
-    e.spin_y[i] = fixture_uniform(random, -3.0, 3.0);
-    e.spin_z[i] = fixture_uniform(random, -3.0, 3.0);
-    body_points_of(&f.view.world, e.kind[i], &points);
-    e.y[i] = fixture_uniform(random, 0.0, 20.0) -
-             body_points_clearance(&f.view.world, &f.stepper.mover.craters, &points,
-                                   entities_position(&e, i), pose_of(&e, i));
+    e.row[i].state = ENTITY_WRECK;
+    e.row[i].behaviour = e.row[i].order = BEHAVIOUR_IDLE;
+    e.row[i].heading = fixture_uniform(random, 0.0, TWO_PI);
+    e.row[i].pitch = fixture_uniform(random, -1.5, 1.5);
+    e.row[i].roll = fixture_uniform(random, -3.1, 3.1);
+    e.row[i].spin_x = fixture_uniform(random, -3.0, 3.0);
+    e.row[i].spin_y = fixture_uniform(random, -3.0, 3.0);
+    e.row[i].spin_z = fixture_uniform(random, -3.0, 3.0);
+    body_points_of(&f.view.world, e.row[i].kind, &points);
+    e.row[i].y = fixture_uniform(random, 0.0, 20.0) -
+                 body_points_clearance(&f.view.world, &f.stepper.mover.craters, &points,
+                                       entities_position(&e, i), pose_of(&e, i));
     before[i] = (struct before){.start = entities_position(&e, i)};
 }
 
@@ -201,7 +201,7 @@ static uint32_t run_frame(double dt_s)
     uint64_t tick = fixture_state(&f).head->tick;
     for (uint32_t i = 0; i < WRECKS; i++) {
         check_frame(i, dt_s);
-        moving += !still(&e, i) || e.until_tick[i] == 0 || e.until_tick[i] > tick;
+        moving += !still(&e, i) || e.row[i].until_tick == 0 || e.row[i].until_tick > tick;
     }
     return moving;
 }
@@ -220,8 +220,8 @@ static void check_rest(void)
     e = steps_rows(&f);
     for (uint32_t i = 0; i < WRECKS; i++) {
         struct quat pose = pose_of(&e, i);
-        assert_true(still(&e, i) && e.x[i] == before[i].at.x && e.y[i] == before[i].at.y &&
-                    e.z[i] == before[i].at.z);
+        assert_true(still(&e, i) && e.row[i].x == before[i].at.x && e.row[i].y == before[i].at.y &&
+                    e.row[i].z == before[i].at.z);
         assert_true(pose.w == before[i].pose.w && pose.x == before[i].pose.x &&
                     pose.y == before[i].pose.y && pose.z == before[i].pose.z);
     }

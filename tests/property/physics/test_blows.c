@@ -44,7 +44,7 @@ static uint32_t burst_beside(const char *kind, const char *round, double away_m)
         fixture_put(&f, (struct fixture_entity){.kind = round,
                                                 .behaviour = BEHAVIOUR_FLIGHT,
                                                 .at = {x, FIXTURE_GROUND_M + 0.1, Z}});
-    steps_rows(&f).until_tick[charge] = 0;
+    steps_rows(&f).row[charge].until_tick = 0;
     fixture_run(&f, 1);
     assert_int_equal(fixture_state(&f).head->tally.detonations, 1);
     return struck;
@@ -67,13 +67,13 @@ static void test_a_bomb_tips_jeep_and_truck_and_no_tank(void **state)
         uint32_t struck = burst_beside(light[n], "bomb", 5.0);
         char what[64];
         snprintf(what, sizeof what, "Mk 82 at 5 m: %s tips", light[n]);
-        row(what, "yes", steps_rows(&f).state[struck] == ENTITY_WRECK, "");
-        assert_int_equal(steps_rows(&f).state[struck], ENTITY_WRECK);
+        row(what, "yes", steps_rows(&f).row[struck].state == ENTITY_WRECK, "");
+        assert_int_equal(steps_rows(&f).row[struck].state, ENTITY_WRECK);
     }
     uint32_t tank = burst_beside("tank", "bomb", 5.0);
     double speed = steps_speed(&f, tank);
     row("Mk 82 at 5 m: speed of a tank", "< 1", speed, "m/s");
-    assert_int_equal(steps_rows(&f).state[tank], ENTITY_ACTIVE);
+    assert_int_equal(steps_rows(&f).row[tank].state, ENTITY_ACTIVE);
     assert_true(speed < 1.0);
 }
 
@@ -93,8 +93,8 @@ static void test_two_tanks_that_cross_are_highly_damaged(void **state)
     assert_true(fixture_event_count(&f, EVENT_COLLISION) > 0);
     for (int n = 0; n < 2; n++) {
         row("two tanks that cross at 8.94 m/s: damage", "3 (high)",
-            (double)steps_rows(&f).damage[tanks[n]], "");
-        assert_int_equal(steps_rows(&f).damage[tanks[n]], DAMAGE_HIGH);
+            (double)steps_rows(&f).row[tanks[n]].damage, "");
+        assert_int_equal(steps_rows(&f).row[tanks[n]].damage, DAMAGE_HIGH);
     }
 }
 

@@ -95,11 +95,11 @@ static void look(const struct fixture *f, uint32_t until[ROWS], struct seen *see
     const struct state state = fixture_state(f);
     const struct entities *e = &state.entities;
     for (uint32_t i = 0; i < ROWS && i < state.head->used; i++) {
-        bool other = f->view.world.kinds[e->kind[i]].domain != DOMAIN_LAND;
+        bool other = f->view.world.kinds[e->row[i].kind].domain != DOMAIN_LAND;
         seen->cruising += cruise_goes(e, i, state.head->tick);
         seen->others += other && cruise_goes(e, i, state.head->tick);
         seen->ended += until[i] > state.head->tick && !cruise_goes(e, i, state.head->tick);
-        until[i] = e->cruise_tick[i];
+        until[i] = e->row[i].cruise_tick;
     }
     seen->collisions = (uint32_t)state.head->tally.collisions;
     seen->craters = state.head->crater_count;
@@ -111,11 +111,11 @@ static void show_difference(const struct fixture *kept, const struct fixture *be
     struct state a = fixture_state(kept), b = fixture_state(begun);
     for (uint32_t i = 0; i < a.head->used; i++) {
 #define X(type, name)                                                                              \
-    if (a.entities.name[i] != b.entities.name[i])                                                  \
+    if (a.entities.row[i].name != b.entities.row[i].name)                                          \
         print_message("frame %llu, row %u: " #name " %.17g, %.17g\n",                              \
-                      (unsigned long long)a.head->frame, i, (double)a.entities.name[i],            \
-                      (double)b.entities.name[i]);
-        ENTITY_COLUMNS(X)
+                      (unsigned long long)a.head->frame, i, (double)a.entities.row[i].name,        \
+                      (double)b.entities.row[i].name);
+        ENTITY_FIELDS(X)
 #undef X
     }
 }

@@ -84,7 +84,7 @@ static void run(uint64_t seed, enum behaviour behaviour)
     for (int frame = 0; frame < FRAMES; frame++) {
         const struct physics_events events = {f.view.events, f.view.world.params->event_slots};
         for (uint32_t row = 0; frame % 60 == 0 && row < LANES; row++) {
-            if (behaviour == BEHAVIOUR_DRIVEN && steps_rows(&f).state[row] == ENTITY_ACTIVE)
+            if (behaviour == BEHAVIOUR_DRIVEN && steps_rows(&f).row[row].state == ENTITY_ACTIVE)
                 steps_pedals(&f, row, random_of(seed, row, 8, 0.2, 1.0), 0.0, GEAR_AUTOMATIC);
         }
         fixture_run(&f, 1);
@@ -152,7 +152,7 @@ static void test_wrecks_are_not_shoved_into_walls(void **state)
         uint32_t wreck = fixture_put(&f, (struct fixture_entity){.kind = "truck",
                                                                  .at = {x + aside, y, 24995.0},
                                                                  .velocity = {0.0, 0.0, -20.0}});
-        steps_rows(&f).state[wreck] = ENTITY_WRECK;
+        steps_rows(&f).row[wreck].state = ENTITY_WRECK;
         fixture_put(&f, (struct fixture_entity){.kind = "tank",
                                                 .at = {x, y, 25006.0},
                                                 .velocity = {0.0, 0.0, -26.0},

@@ -110,16 +110,16 @@ static struct ending run_off(const struct corner *place, const char *method, con
     crowd(&f, place, seed);
     struct state now = fixture_state(&f);
     for (uint32_t i = 0; off != 0 && i < ROWS; i++) {
-        now.entities.x[i] += fixture_uniform(&off, -FAR_M, FAR_M);
-        now.entities.z[i] += fixture_uniform(&off, -FAR_M, FAR_M);
+        now.entities.row[i].x += fixture_uniform(&off, -FAR_M, FAR_M);
+        now.entities.row[i].z += fixture_uniform(&off, -FAR_M, FAR_M);
     }
     fixture_run(&f, FRAMES);
     now = fixture_state(&f);
     for (uint32_t i = 0; i < ROWS; i++) {
         ending.at[i] =
             vec3_sub(entities_position(&now.entities, i), (struct vec3){place->x, 0.0, place->z});
-        ending.heading[i] = now.entities.heading[i];
-        ending.damage[i] = now.entities.damage[i];
+        ending.heading[i] = now.entities.row[i].heading;
+        ending.damage[i] = now.entities.row[i].damage;
     }
     ending.collisions = now.head->tally.collisions;
     ending.contacts = now.head->contact_count;
@@ -201,7 +201,7 @@ static void press(const struct corner *place, double off_m, uint64_t seed, struc
     put_pairs(&f, place, seed);
     struct state now = fixture_state(&f);
     for (uint32_t i = 0; i < ROWS; i++)
-        now.entities.x[i] += i % 2 ? off_m : -off_m;
+        now.entities.row[i].x += i % 2 ? off_m : -off_m;
     fixture_run(&f, LONG);
     now = fixture_state(&f);
     for (uint32_t i = 0; i < ROWS; i++)

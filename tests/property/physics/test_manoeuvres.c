@@ -51,17 +51,17 @@ static void look(uint32_t row, double *heading)
 {
     struct entities e = steps_rows(&f);
     struct deeds *d = &deeds[row];
-    bool in_air = e.y[row] > steps_ground_at(&f, e.x[row], e.z[row]) + 0.2;
-    d->high_m = maths_max(d->high_m, e.y[row] - 100.0);
-    d->low_m = maths_min(d->low_m, e.y[row] - 100.0);
-    d->air_s += in_air && e.state[row] == ENTITY_ACTIVE ? 1.0 / 60.0 : 0.0;
-    d->pitch_rad = maths_max(d->pitch_rad, fabs(e.pitch[row]));
-    d->roll_rad = maths_max(d->roll_rad, fabs(e.roll[row]));
-    d->turned_rad += maths_wrap_half(e.heading[row] - heading[row]);
-    heading[row] = e.heading[row];
-    d->z = e.z[row];
-    d->damage = (enum damage)e.damage[row];
-    d->wreck |= e.state[row] == ENTITY_WRECK;
+    bool in_air = e.row[row].y > steps_ground_at(&f, e.row[row].x, e.row[row].z) + 0.2;
+    d->high_m = maths_max(d->high_m, e.row[row].y - 100.0);
+    d->low_m = maths_min(d->low_m, e.row[row].y - 100.0);
+    d->air_s += in_air && e.row[row].state == ENTITY_ACTIVE ? 1.0 / 60.0 : 0.0;
+    d->pitch_rad = maths_max(d->pitch_rad, fabs(e.row[row].pitch));
+    d->roll_rad = maths_max(d->roll_rad, fabs(e.row[row].roll));
+    d->turned_rad += maths_wrap_half(e.row[row].heading - heading[row]);
+    heading[row] = e.row[row].heading;
+    d->z = e.row[row].z;
+    d->damage = (enum damage)e.row[row].damage;
+    d->wreck |= e.row[row].state == ENTITY_WRECK;
 }
 
 static void run(void)
@@ -70,8 +70,8 @@ static void run(void)
     struct state now = fixture_state(&f);
     assert_int_equal(physics_check_begin(&check, &f.view.world, &now), 0);
     for (uint32_t row = 0; row < VEHICLES; row++) {
-        heading[row] = now.entities.heading[row];
-        deeds[row].z0 = now.entities.z[row];
+        heading[row] = now.entities.row[row].heading;
+        deeds[row].z0 = now.entities.row[row].z;
     }
     for (int frame = 0; frame < FRAMES; frame++) {
         const struct physics_events events = {f.view.events, f.view.world.params->event_slots};

@@ -73,7 +73,7 @@ static double judge(uint64_t seed, double hz)
         now = fixture_state(&f);
         assert_int_equal(physics_check_frame(&check, &now, &events), 0);
         for (uint32_t i = 0; i < VEHICLES; i++)
-            sprung += (now.entities.flags[i] & ENTITY_FLAG_CHASSIS) != 0;
+            sprung += (now.entities.row[i].flags & ENTITY_FLAG_CHASSIS) != 0;
     }
     print_message("seed %llu at %.0f Hz: on springs for %.3f, %.2f J/kg at most\n",
                   (unsigned long long)seed, hz, (double)sprung / VEHICLES / frames,

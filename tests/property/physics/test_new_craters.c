@@ -48,7 +48,7 @@ static void put_vehicles(uint64_t *random)
         uint32_t row =
             steps_put_driving(&f, kinds[i % 5], x, z, fixture_uniform(random, -30.0, 30.0),
                               fixture_uniform(random, 0.0, 3.0));
-        assert_int_equal(steps_rows(&f).behaviour[row], BEHAVIOUR_HOLD);
+        assert_int_equal(steps_rows(&f).row[row].behaviour, BEHAVIOUR_HOLD);
     }
 }
 

@@ -23,12 +23,12 @@ static void show_difference(const struct fixture *kept, const struct fixture *be
     for (uint32_t i = 0; i < a.head->used && shown < ROWS_SHOWN; i++) {
         bool differs = false;
 #define X(type, name)                                                                              \
-    if (a.entities.name[i] != b.entities.name[i]) {                                                \
+    if (a.entities.row[i].name != b.entities.row[i].name) {                                        \
         differs = true;                                                                            \
-        print_message("row %u: " #name " %.17g, %.17g\n", i, (double)a.entities.name[i],           \
-                      (double)b.entities.name[i]);                                                 \
+        print_message("row %u: " #name " %.17g, %.17g\n", i, (double)a.entities.row[i].name,       \
+                      (double)b.entities.row[i].name);                                             \
     }
-        ENTITY_COLUMNS(X)
+        ENTITY_FIELDS(X)
 #undef X
         shown += differs;
     }

@@ -27,7 +27,7 @@ static double deepest(void)
     for (uint32_t a = 0; a < BODIES; a++) {
         for (uint32_t b = a + 1; b < BODIES; b++) {
             const struct vec3 off = vec3_sub(entities_position(&e, b), entities_position(&e, a));
-            double reach = known[e.kind[a]].radius_m + known[e.kind[b]].radius_m;
+            double reach = known[e.row[a].kind].radius_m + known[e.row[b].kind].radius_m;
             most = maths_max(most, reach - vec3_length(off));
         }
     }

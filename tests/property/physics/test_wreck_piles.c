@@ -33,10 +33,10 @@ static void put(uint64_t *random)
                                         .velocity = {-MPS * sine, down, MPS * cosine},
                                         .heading_rad = maths_wrap_turn(angle + PI + off)});
         struct entities e = steps_rows(&f);
-        e.state[row] = ENTITY_WRECK;
-        e.behaviour[row] = e.order[row] = BEHAVIOUR_IDLE;
-        e.spin_x[row] = fixture_uniform(random, -1.0, 1.0);
-        e.spin_z[row] = fixture_uniform(random, -1.0, 1.0);
+        e.row[row].state = ENTITY_WRECK;
+        e.row[row].behaviour = e.row[row].order = BEHAVIOUR_IDLE;
+        e.row[row].spin_x = fixture_uniform(random, -1.0, 1.0);
+        e.row[row].spin_z = fixture_uniform(random, -1.0, 1.0);
     }
 }
 

@@ -129,12 +129,12 @@ static double turn_rate(const struct kind *kind, double forward, double after)
 
 static double standing_height(const struct step_context *context, uint32_t i, double x, double z)
 {
-    const struct kind *kind = &context->world->kinds[context->m->kind[i]];
+    const struct kind *kind = &context->world->kinds[context->m->row[i].kind];
     struct crater_footing footing = {.x = x,
                                      .z = z,
                                      .half_length = maths_max(kind->length_m * 0.5, 0.5),
                                      .half_width = maths_max(kind->width_m * 0.5, 0.5)};
-    maths_sincos(context->m->heading[i], &footing.sine, &footing.cosine);
+    maths_sincos(context->m->row[i].heading, &footing.sine, &footing.cosine);
     return kinematics_ground(context, x, z) +
            terrain_lift(&context->world->terrain, context->craters, &footing);
 }
@@ -142,29 +142,29 @@ static double standing_height(const struct step_context *context, uint32_t i, do
 static void stand_on_ground(const struct step_context *context, uint32_t i)
 {
     struct entities *m = context->m;
-    const struct kind *kind = &context->world->kinds[m->kind[i]];
+    const struct kind *kind = &context->world->kinds[m->row[i].kind];
     double half_length = maths_max(kind->length_m * 0.5, 0.5);
     double half_width = maths_max(kind->width_m * 0.5, 0.5);
-    double sine, cosine, x = m->x[i], z = m->z[i];
-    maths_sincos(m->heading[i], &sine, &cosine);
+    double sine, cosine, x = m->row[i].x, z = m->row[i].z;
+    maths_sincos(m->row[i].heading, &sine, &cosine);
     double length_x = sine * half_length, length_z = cosine * half_length;
     double width_x = cosine * half_width, width_z = sine * half_width;
     double front = kinematics_ground(context, x + length_x, z - length_z);
     double back = kinematics_ground(context, x - length_x, z + length_z);
     double right = kinematics_ground(context, x + width_x, z + width_z);
     double left = kinematics_ground(context, x - width_x, z - width_z);
-    m->pitch[i] = maths_atan2(front - back, 2.0 * half_length);
-    m->roll[i] = maths_atan2(left - right, 2.0 * half_width);
+    m->row[i].pitch = maths_atan2(front - back, 2.0 * half_length);
+    m->row[i].roll = maths_atan2(left - right, 2.0 * half_width);
 }
 
 /* By how much craters differ under it, or how far earthworks bend under it [m]. */
 static double crater_step(const struct step_context *context, uint32_t i)
 {
     const struct entities *m = context->m;
-    const struct kind *kind = &context->world->kinds[m->kind[i]];
+    const struct kind *kind = &context->world->kinds[m->row[i].kind];
     double length = maths_max(kind->length_m * 0.5, 0.5), sine, cosine;
-    double width = maths_max(kind->width_m * 0.5, 0.5), x = m->x[i], z = m->z[i];
-    maths_sincos(m->heading[i], &sine, &cosine);
+    double width = maths_max(kind->width_m * 0.5, 0.5), x = m->row[i].x, z = m->row[i].z;
+    maths_sincos(m->row[i].heading, &sine, &cosine);
     const double at[5][2] = {{x, z},
                              {x + sine * length, z - cosine * length},
                              {x - sine * length, z + cosine * length},
@@ -186,7 +186,7 @@ static double crater_step(const struct step_context *context, uint32_t i)
 static void speeds_of(const struct entities *m, uint32_t i, double *forward, double *rightward)
 {
     double sine, cosine;
-    maths_sincos(m->heading[i], &sine, &cosine);
+    maths_sincos(m->row[i].heading, &sine, &cosine);
     kinematics_along(m, i, sine, cosine, forward, rightward);
 }
 
@@ -195,16 +195,16 @@ static double shell_depth(const struct step_context *context, uint32_t i, uint32
                           struct vec3 at, double pitch, double roll)
 {
     const struct entities *m = context->m;
-    struct mat3 turn = rotation_matrix(rotation_of(m->heading[i], pitch, roll));
+    struct mat3 turn = rotation_matrix(rotation_of(m->row[i].heading, pitch, roll));
     return vehicle_shell_depth(&context->world->terrain, context->craters,
-                               &context->world->kinds[m->kind[i]], points, at, &turn);
+                               &context->world->kinds[m->row[i].kind], points, at, &turn);
 }
 
 static double climb_of(const struct entities *m, uint32_t i, double pitch)
 {
     double sine, cosine;
-    maths_sincos(m->heading[i], &sine, &cosine);
-    return (m->vx[i] * sine - m->vz[i] * cosine) * pitch * (1.0 + pitch * pitch / 3.0);
+    maths_sincos(m->row[i].heading, &sine, &cosine);
+    return (m->row[i].vx * sine - m->row[i].vz * cosine) * pitch * (1.0 + pitch * pitch / 3.0);
 }
 
 /* Where a row was before the frame. */
@@ -220,26 +220,27 @@ static int enters_ground(const struct step_context *context, uint32_t i,
 {
     struct entities *m = context->m;
     struct terrain_cache_entry entry = {.held = 0};
-    double bend = terrain_cache_bend(&context->world->terrain, &entry, m->x[i], m->z[i]);
-    struct vec3 at = {m->x[i], m->y[i], m->z[i]};
-    struct vec3 way = {m->vx[i] * context->dt_s, climb_of(m, i, m->pitch[i]) * context->dt_s,
-                       m->vz[i] * context->dt_s};
+    double bend = terrain_cache_bend(&context->world->terrain, &entry, m->row[i].x, m->row[i].z);
+    struct vec3 at = {m->row[i].x, m->row[i].y, m->row[i].z};
+    struct vec3 way = {m->row[i].vx * context->dt_s,
+                       climb_of(m, i, m->row[i].pitch) * context->dt_s,
+                       m->row[i].vz * context->dt_s};
     bool marked = ground_marks_at(context->ground_marks, was->x, was->z) & GROUND_MARKS_CRATER;
-    const bool bends = bend > chassis_shell_bend(&context->world->kinds[m->kind[i]]);
+    const bool bends = bend > chassis_shell_bend(&context->world->kinds[m->row[i].kind]);
     const uint32_t points = bends ? VEHICLE_SHELL_SIDES : VEHICLE_SHELL_ENDS;
     const struct vec3 next = vec3_add(at, way);
     if ((!bends && !marked) ||
-        (shell_depth(context, i, points, at, m->pitch[i], m->roll[i]) <= 0.0 &&
-         shell_depth(context, i, points, next, m->pitch[i], m->roll[i]) <= 0.0))
+        (shell_depth(context, i, points, at, m->row[i].pitch, m->row[i].roll) <= 0.0 &&
+         shell_depth(context, i, points, next, m->row[i].pitch, m->row[i].roll) <= 0.0))
         return 0;
     at.y = was->y + climb_of(m, i, was->pitch) * context->dt_s;
     if (shell_depth(context, i, points, at, was->pitch, was->roll) <= 0.0)
         return 1;
-    double heading = m->heading[i];
-    m->heading[i] = was->heading;
+    double heading = m->row[i].heading;
+    m->row[i].heading = was->heading;
     double depth = shell_depth(context, i, points, (struct vec3){was->x, was->y, was->z},
                                was->pitch, was->roll);
-    m->heading[i] = heading;
+    m->row[i].heading = heading;
     return marked && depth <= 0.01 ? 2 : 0;
 }
 
@@ -255,13 +256,13 @@ static bool is_near_water(const struct step_context *context, double x, double z
 static bool jolts(const struct step_context *context, uint32_t i, const struct row_before *was)
 {
     struct entities *m = context->m;
-    const double heading = m->heading[i];
-    double now = standing_height(context, i, m->x[i], m->z[i]) -
-                 kinematics_ground(context, m->x[i], m->z[i]);
-    m->heading[i] = was->heading;
+    const double heading = m->row[i].heading;
+    double now = standing_height(context, i, m->row[i].x, m->row[i].z) -
+                 kinematics_ground(context, m->row[i].x, m->row[i].z);
+    m->row[i].heading = was->heading;
     double before =
         standing_height(context, i, was->x, was->z) - kinematics_ground(context, was->x, was->z);
-    m->heading[i] = heading;
+    m->row[i].heading = heading;
     return now - before > 0.3 * context->dt_s;
 }
 
@@ -269,11 +270,11 @@ static bool drive_one(const struct step_context *context, uint32_t i,
                       const struct desired_motion *desired)
 {
     struct entities *m = context->m;
-    const struct kind *kind = &context->world->kinds[m->kind[i]];
+    const struct kind *kind = &context->world->kinds[m->row[i].kind];
     double forward, rightward, sine, cosine;
     bool blocked = false;
     speeds_of(m, i, &forward, &rightward);
-    double heading = m->heading[i], pitch = m->pitch[i];
+    double heading = m->row[i].heading, pitch = m->row[i].pitch;
     double wanted = desired->speed_mps;
     double share = maths_max(fabs(wanted) / maths_max(kind->max_speed_mps, 1e-9), kind->idle_share);
     double frames = kinematics_parked(m, i) ? 0.0 : 1.0;
@@ -284,30 +285,32 @@ static bool drive_one(const struct step_context *context, uint32_t i,
     double limit = slope_speed(kind, wanted < 0.0 ? -pitch : pitch);
     if (fabs(wanted) > 0.0 && limit <= 0.0)
         blocked = true;
-    limit = maths_min(limit, debris_share(context, kind, m->x[i], m->z[i]) * kind->max_speed_mps);
+    limit = maths_min(limit,
+                      debris_share(context, kind, m->row[i].x, m->row[i].z) * kind->max_speed_mps);
     wanted = maths_clamp(wanted, -limit, limit);
     double brakes = maths_min(BRAKES * kind->acceleration_mps2, 0.7 * GRAVITY_MPS2), fast = forward;
     forward = powered(context, kind, pitch, forward, wanted);
     kinematics_steer(context, i, desired, turn_rate(kind, fast, forward));
-    maths_sincos(m->heading[i], &sine, &cosine);
-    const double gain_mps2 = (forward - (m->vx[i] * sine - m->vz[i] * cosine)) / context->dt_s;
+    maths_sincos(m->row[i].heading, &sine, &cosine);
+    const double gain_mps2 =
+        (forward - (m->row[i].vx * sine - m->row[i].vz * cosine)) / context->dt_s;
     rightward = kinematics_approach(rightward, 0.0, 0.7 * GRAVITY_MPS2 * context->dt_s);
 
     double vx = forward * sine + rightward * cosine;
     double vz = -forward * cosine + rightward * sine;
-    double x = m->x[i] + vx * context->dt_s, z = m->z[i] + vz * context->dt_s;
+    double x = m->row[i].x + vx * context->dt_s, z = m->row[i].z + vz * context->dt_s;
     double lead = forward < 0.0 ? -kind->length_m * 0.5 : kind->length_m * 0.5;
     double slower = kinematics_approach(fast, 0.0, brakes * context->dt_s);
     double now = vx * sine - vz * cosine, way = kind->length_m * 0.5 + fast * fast / (2.0 * brakes);
     way = fast < 0.0 ? -way : way;
     if (is_near_water(context, x, z) && now * fast > 0.0 && fabs(now) > fabs(slower) &&
-        cover_is_water(terrain_cover(&context->world->terrain, m->x[i] + way * sine,
-                                     m->z[i] - way * cosine))) {
+        cover_is_water(terrain_cover(&context->world->terrain, m->row[i].x + way * sine,
+                                     m->row[i].z - way * cosine))) {
         double less_x = (slower - now) * sine, less_z = (now - slower) * cosine;
         vx += less_x, vz += less_z;
         x += less_x * context->dt_s, z += less_z * context->dt_s;
     }
-    bool goes = x != m->x[i] || z != m->z[i], wades = false;
+    bool goes = x != m->row[i].x || z != m->row[i].z, wades = false;
     if (goes &&
         (!passable(context, x + sine * lead, z - cosine * lead) || !passable(context, x, z))) {
         blocked = true;
@@ -315,65 +318,67 @@ static bool drive_one(const struct step_context *context, uint32_t i,
                     0.7 * GRAVITY_MPS2 * context->dt_s * 0.7 * GRAVITY_MPS2 * context->dt_s &&
                 fording_passable(context, kind, x, z) &&
                 fording_passable(context, kind, x + sine * lead, z - cosine * lead);
-        x = wades ? x : m->x[i], z = wades ? z : m->z[i];
+        x = wades ? x : m->row[i].x, z = wades ? z : m->row[i].z;
         vx = wades ? vx : 0.0, vz = wades ? vz : 0.0;
     }
-    const struct row_before was = {m->x[i], m->y[i], m->z[i], heading, pitch, m->roll[i]};
-    double y = standing_height(context, i, x, z), before = m->y[i], roll = m->roll[i];
+    const struct row_before was = {m->row[i].x, m->row[i].y, m->row[i].z,
+                                   heading,     pitch,       m->row[i].roll};
+    double y = standing_height(context, i, x, z), before = m->row[i].y, roll = m->row[i].roll;
     entities_set_velocity(m, i, (struct vec3){vx, (y - before) / context->dt_s, vz});
     entities_set_position(m, i, (struct vec3){x, y, z});
     stand_on_ground(context, i);
     int enters = enters_ground(context, i, &was);
-    const struct chassis_slope slope = {m->pitch[i], m->roll[i], gain_mps2,
-                                        forward * maths_wrap_half(m->heading[i] - heading) /
+    const struct chassis_slope slope = {m->row[i].pitch, m->row[i].roll, gain_mps2,
+                                        forward * maths_wrap_half(m->row[i].heading - heading) /
                                             context->dt_s};
-    if (forward * (pitch - m->pitch[i]) > GRAVITY_MPS2 * context->dt_s ||
+    if (forward * (pitch - m->row[i].pitch) > GRAVITY_MPS2 * context->dt_s ||
         crater_step(context, i) > CHASSIS_STEP_M ||
         y - kinematics_ground(context, x, z) > CHASSIS_LIFT_M || wades || enters != 0 ||
         jolts(context, i, &was)) {
         double climb = climb_of(m, i, pitch);
         chassis_disturb(context, i);
-        m->vy[i] = climb;
-        m->y[i] = before + climb * context->dt_s;
-        m->pitch[i] = pitch;
-        m->roll[i] = roll;
-        m->spin_y[i] = -maths_wrap_half(m->heading[i] - heading) / context->dt_s;
+        m->row[i].vy = climb;
+        m->row[i].y = before + climb * context->dt_s;
+        m->row[i].pitch = pitch;
+        m->row[i].roll = roll;
+        m->row[i].spin_y = -maths_wrap_half(m->row[i].heading - heading) / context->dt_s;
         if (enters == 2) {
-            m->x[i] = was.x, m->y[i] = was.y, m->z[i] = was.z;
-            m->heading[i] = was.heading;
+            m->row[i].x = was.x, m->row[i].y = was.y, m->row[i].z = was.z;
+            m->row[i].heading = was.heading;
         }
     } else if (!chassis_holds(kind, ground_grip_at(context, x, z).friction, &slope)) {
         chassis_disturb(context, i);
-        m->vy[i] = climb_of(m, i, m->pitch[i]);
-        m->spin_y[i] = -maths_wrap_half(m->heading[i] - heading) / context->dt_s;
+        m->row[i].vy = climb_of(m, i, m->row[i].pitch);
+        m->row[i].spin_y = -maths_wrap_half(m->row[i].heading - heading) / context->dt_s;
     }
     return blocked;
 }
 
 static double lift_of(const struct step_context *context, const struct entities *e, uint32_t i)
 {
-    const struct rest_pose pose = {e->y[i], e->pitch[i], e->roll[i]};
-    return course_lift(context->world, context->craters, e->kind[i], e->x[i], e->z[i],
-                       e->heading[i], &pose);
+    const struct rest_pose pose = {e->row[i].y, e->row[i].pitch, e->row[i].roll};
+    return course_lift(context->world, context->craters, e->row[i].kind, e->row[i].x, e->row[i].z,
+                       e->row[i].heading, &pose);
 }
 
 static void hold_one(const struct step_context *context, uint32_t i)
 {
     struct entities *m = context->m;
-    double before = m->y[i];
-    m->y[i] = standing_height(context, i, m->x[i], m->z[i]);
+    double before = m->row[i].y;
+    m->row[i].y = standing_height(context, i, m->row[i].x, m->row[i].z);
     stand_on_ground(context, i);
-    m->y[i] += lift_of(context, m, i);
-    if (m->flags[i] & ENTITY_FLAG_CHASSIS) {
+    m->row[i].y += lift_of(context, m, i);
+    if (m->row[i].flags & ENTITY_FLAG_CHASSIS) {
         const struct entities *w = &context->committed->entities;
-        const struct rest_pose ground = {m->y[i], m->pitch[i], m->roll[i]};
-        const struct rest_pose was = course_lift_pose(context->world, context->craters, m->kind[i],
-                                                      w->x[i], w->z[i], w->heading[i]);
+        const struct rest_pose ground = {m->row[i].y, m->row[i].pitch, m->row[i].roll};
+        const struct rest_pose was =
+            course_lift_pose(context->world, context->craters, m->row[i].kind, w->row[i].x,
+                             w->row[i].z, w->row[i].heading);
         ground_vehicle_ease(context, i, &was, &ground);
         double left_m = lift_of(context, w, i) - GROUND_VEHICLE_EASE_MPS * context->dt_s;
-        m->y[i] += maths_max(0.0, lift_of(context, m, i) - maths_max(0.0, left_m));
+        m->row[i].y += maths_max(0.0, lift_of(context, m, i) - maths_max(0.0, left_m));
     }
-    m->vy[i] = (m->y[i] - before) / context->dt_s;
+    m->row[i].vy = (m->row[i].y - before) / context->dt_s;
 }
 
 /* An aircraft that flies alone in its batch. tests/unit/mover/motion/test_airframe.c tests the
@@ -423,25 +428,25 @@ static void draw_row(const struct entities *e, uint64_t *random, uint32_t i, boo
     uint16_t kind = fixture_kind(&f, flies ? air[fixture_random(random) % 2]
                                            : land[fixture_random(random) % 4]);
     entities_clear(e, i);
-    e->kind[i] = kind;
-    e->id[i] = i + 1;
-    e->state[i] = ENTITY_ACTIVE;
-    e->x[i] = place(random);
-    e->z[i] = place(random);
-    e->y[i] = fixture_uniform(random, 90.0, 110.0);
-    e->vx[i] = some(random, 0.8, -20.0, 20.0);
-    e->vz[i] = some(random, 0.8, -20.0, 20.0);
-    e->heading[i] = some(random, 0.9, 0.0, TWO_PI);
-    e->pitch[i] = some(random, 0.8, -0.9, 0.9);
-    e->fuel_l[i] = some(random, 0.8, 0.0, 0.01);
+    e->row[i].kind = kind;
+    e->row[i].id = i + 1;
+    e->row[i].state = ENTITY_ACTIVE;
+    e->row[i].x = place(random);
+    e->row[i].z = place(random);
+    e->row[i].y = fixture_uniform(random, 90.0, 110.0);
+    e->row[i].vx = some(random, 0.8, -20.0, 20.0);
+    e->row[i].vz = some(random, 0.8, -20.0, 20.0);
+    e->row[i].heading = some(random, 0.9, 0.0, TWO_PI);
+    e->row[i].pitch = some(random, 0.8, -0.9, 0.9);
+    e->row[i].fuel_l = some(random, 0.8, 0.0, 0.01);
 }
 
 static struct desired_motion draw_wish(const struct entities *e, uint64_t *random, uint32_t i)
 {
-    const struct kind *kind = &f.view.world.kinds[e->kind[i]];
+    const struct kind *kind = &f.view.world.kinds[e->row[i].kind];
     double most = kind->max_speed_mps;
     struct desired_motion desired = {
-        .heading_rad = e->heading[i] + some(random, 0.7, -7.0, 7.0),
+        .heading_rad = e->row[i].heading + some(random, 0.7, -7.0, 7.0),
         .speed_mps = some(random, 0.8, -most, 1.2 * most),
         .altitude_m = some(random, 0.8, 0.0, 150.0),
     };
@@ -489,8 +494,8 @@ struct both {
 static void compare(const struct both *both, uint32_t i)
 {
     const struct entities *one = &both->rows, *many = both->context->m;
-#define X(type, name) assert_true(one->name[i] == many->name[i]);
-    ENTITY_COLUMNS(X)
+#define X(type, name) assert_true(one->row[i].name == many->row[i].name);
+    ENTITY_FIELDS(X)
 #undef X
 }
 
@@ -500,8 +505,8 @@ static void draw_rows(struct both *both, uint64_t *random, uint32_t used, bool f
     for (uint32_t i = 0; i < used; i++) {
         draw_row(both->context->m, random, i, flies);
         desired[i] = draw_wish(both->context->m, random, i);
-        both->context->m->steer[i] = (float)some(random, 0.7, -1.0, 1.0);
-        both->context->m->throttle[i] = (float)some(random, 0.8, -1.0, 1.0);
+        both->context->m->row[i].steer = (float)some(random, 0.7, -1.0, 1.0);
+        both->context->m->row[i].throttle = (float)some(random, 0.8, -1.0, 1.0);
     }
     entities_copy(&both->rows, both->context->m, 0, used);
 }
@@ -526,7 +531,7 @@ static void drive(struct both *both, uint64_t *random, struct ground_vehicle *la
         compare(both, i);
         assert_int_equal(land->blocked.lane[i], blocked ? -1 : 0);
         drawn->blocked += blocked;
-        drawn->steep += fabs(both->rows.pitch[i]) > 0.45;
+        drawn->steep += fabs(both->rows.row[i].pitch) > 0.45;
         drawn->cratered += land->pose.cratered.lane[i] != 0;
     }
     drawn->moved += used;
@@ -591,7 +596,7 @@ static void lanes_go_where_one_would(const char *text, uint64_t seed)
     struct both both = {.context = &context};
     fixture_open(&f, text);
     assert_true(f.view.world.counts.fixed == 3);
-    void *memory = calloc(1, entities_bytes(64) + COLUMN_ALIGN);
+    void *memory = calloc(1, entities_bytes(64) + TABLE_ALIGN);
     assert_non_null(memory);
     entities_bind(&both.rows, 64, memory);
     for (int i = 0; i < ROUNDS; i++) {

@@ -46,16 +46,18 @@ static void test_our_vehicle_collides_and_theirs_stays(void **state)
         fixture_run(&f, 1);
         const struct state now = fixture_state(&f);
         const struct entities *e = &now.entities;
-        assert_true(e->x[row] == there.x && e->y[row] == there.y && e->z[row] == there.z);
-        assert_true(e->vx[row] == 0.0 && e->spin_y[row] == 0.0 && e->heading[row] < 1e-12);
-        assert_int_equal(e->damage[row], DAMAGE_NONE);
-        assert_true(e->harm_j[row] == 0.0 && e->flags[row] == 0 && e->bumped[row] == 0);
+        assert_true(e->row[row].x == there.x && e->row[row].y == there.y &&
+                    e->row[row].z == there.z);
+        assert_true(e->row[row].vx == 0.0 && e->row[row].spin_y == 0.0 &&
+                    e->row[row].heading < 1e-12);
+        assert_int_equal(e->row[row].damage, DAMAGE_NONE);
+        assert_true(e->row[row].harm_j == 0.0 && e->row[row].flags == 0 && e->row[row].bumped == 0);
     }
     const struct event_collision *collision = &fixture_event(&f, EVENT_COLLISION, 0)->collision;
     uint32_t ids = collision->a.id + collision->b.id;
-    assert_int_equal(ids, steps_rows(&f).id[own] + steps_rows(&f).id[row]);
+    assert_int_equal(ids, steps_rows(&f).row[own].id + steps_rows(&f).row[row].id);
     assert_true(collision->impulse_ns > 1e5f); /* two masses of 54 t share 15 m/s */
-    assert_true(steps_rows(&f).harm_j[own] > 0.0);
+    assert_true(steps_rows(&f).row[own].harm_j > 0.0);
     assert_true(steps_speed(&f, own) < 8.0);
 }
 
@@ -69,11 +71,11 @@ static void test_a_round_detonates_on_them(void **state)
     fixture_run(&f, 10);
     const struct event_detonation *detonation = &fixture_event(&f, EVENT_DETONATION, 0)->detonation;
     assert_int_equal(detonation->struck, STRUCK_VEHICLE);
-    assert_int_equal(detonation->struck_party.id, steps_rows(&f).id[row]);
+    assert_int_equal(detonation->struck_party.id, steps_rows(&f).row[row].id);
     assert_int_equal(detonation->remote, 0); /* we are the ones who tell it */
-    assert_int_equal(steps_rows(&f).damage[row], DAMAGE_NONE);
-    assert_int_equal(steps_rows(&f).state[row], ENTITY_ACTIVE);
-    assert_true(steps_rows(&f).x[row] == there.x);
+    assert_int_equal(steps_rows(&f).row[row].damage, DAMAGE_NONE);
+    assert_int_equal(steps_rows(&f).row[row].state, ENTITY_ACTIVE);
+    assert_true(steps_rows(&f).row[row].x == there.x);
     assert_int_equal(fixture_state(&f).head->tally.destroyed, 0);
 }
 
@@ -87,9 +89,9 @@ static void test_a_blast_moves_ours_alone(void **state)
                                             .at = {25030.0, FIXTURE_GROUND_M + 5.0, 25004.0},
                                             .velocity = {0.0, -200.0, 0.0}});
     fixture_run(&f, 30);
-    assert_int_equal(steps_rows(&f).state[own], ENTITY_WRECK);
-    assert_int_equal(steps_rows(&f).state[row], ENTITY_ACTIVE);
-    assert_true(steps_rows(&f).x[row] == there.x && steps_rows(&f).z[row] == there.z);
+    assert_int_equal(steps_rows(&f).row[own].state, ENTITY_WRECK);
+    assert_int_equal(steps_rows(&f).row[row].state, ENTITY_ACTIVE);
+    assert_true(steps_rows(&f).row[row].x == there.x && steps_rows(&f).row[row].z == there.z);
 }
 
 static void test_two_of_theirs_pass(void **state)
@@ -102,7 +104,7 @@ static void test_two_of_theirs_pass(void **state)
     remotes_send(&f, record);
     fixture_run(&f, 180);
     assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 0);
-    assert_true(fabs(steps_rows(&f).x[remotes_row(&f, REMOTE)] - (there.x + 20.0 * 179 / 60)) <
+    assert_true(fabs(steps_rows(&f).row[remotes_row(&f, REMOTE)].x - (there.x + 20.0 * 179 / 60)) <
                 1e-6);
 }
 
@@ -117,8 +119,8 @@ static void test_an_aircraft_may_fly_into_our_ground(void **state)
     remotes_send(&f, record);
     fixture_run(&f, 121);
     uint32_t row = remotes_row(&f, REMOTE);
-    assert_int_equal(steps_rows(&f).state[row], ENTITY_ACTIVE);
-    assert_true(fabs(steps_rows(&f).y[row] - (FIXTURE_GROUND_M - 10.0)) < 1e-6);
+    assert_int_equal(steps_rows(&f).row[row].state, ENTITY_ACTIVE);
+    assert_true(fabs(steps_rows(&f).row[row].y - (FIXTURE_GROUND_M - 10.0)) < 1e-6);
     assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 0);
 }
 
@@ -133,9 +135,9 @@ static uint32_t correct(double from_x, double to_x, uint32_t own)
     record.position[0] = to_x;
     remotes_send(&f, record);
     fixture_run(&f, 120);
-    assert_true(fabs(steps_rows(&f).x[record.slot] - to_x) < 1e-4);
-    assert_true(steps_rows(&f).harm_j[own] == 0.0);
-    assert_int_equal(steps_rows(&f).damage[own], DAMAGE_NONE);
+    assert_true(fabs(steps_rows(&f).row[record.slot].x - to_x) < 1e-4);
+    assert_true(steps_rows(&f).row[own].harm_j == 0.0);
+    assert_int_equal(steps_rows(&f).row[own].damage, DAMAGE_NONE);
     assert_true(steps_speed(&f, own) < 0.1);
     return record.slot;
 }
@@ -152,7 +154,7 @@ static void test_what_is_corrected_at_once_passes(void **state)
     uint32_t own = put_own("tank");
     correct(24900.0, 25100.0, own);
     assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 0);
-    assert_true(steps_rows(&f).x[own] == 25000.0);
+    assert_true(steps_rows(&f).row[own].x == 25000.0);
 }
 
 static void test_what_is_corrected_has_no_speed_by_it(void **state)
@@ -172,8 +174,8 @@ static void test_what_is_corrected_into_ours_parts_from_it(void **state)
     uint32_t own = put_own("jeep");
     uint32_t row = correct(24990.0, 25001.0, own);
     const struct entities e = steps_rows(&f);
-    assert_true(hypot(e.x[own] - e.x[row], e.z[own] - e.z[row]) > 1.5);
-    assert_true(e.y[own] < FIXTURE_GROUND_M + 0.1); /* on the ground, not on the tank */
+    assert_true(hypot(e.row[own].x - e.row[row].x, e.row[own].z - e.row[row].z) > 1.5);
+    assert_true(e.row[own].y < FIXTURE_GROUND_M + 0.1); /* on the ground, not on the tank */
 }
 
 /* Its owner goes on while the world is paused, through our vehicle and beyond. It is led there when
@@ -188,13 +190,13 @@ static void test_what_passes_while_the_world_is_paused_strikes_nothing(void **st
     for (; at.x < 25045.0; at.x += 1.5) {
         remotes_send(&f, remotes_track(&f, REMOTE, at));
         fixture_run(&f, 1);
-        assert_true(steps_rows(&f).x[row] < 25000.0 + 1e-6);
+        assert_true(steps_rows(&f).row[row].x < 25000.0 + 1e-6);
     }
     steps_send(&f, RING_CLIENTS, (struct command){.source = 1, .type = COMMAND_RESUME});
     fixture_run(&f, 60);
-    assert_true(fabs(steps_rows(&f).x[row] - (at.x - 1.5)) < 1e-6);
+    assert_true(fabs(steps_rows(&f).row[row].x - (at.x - 1.5)) < 1e-6);
     assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 0);
-    assert_true(steps_rows(&f).x[own] == there.x && steps_rows(&f).harm_j[own] == 0.0);
+    assert_true(steps_rows(&f).row[own].x == there.x && steps_rows(&f).row[own].harm_j == 0.0);
 }
 
 int main(void)

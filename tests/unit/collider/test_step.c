@@ -34,7 +34,7 @@ static void test_row_24_table_2_metres_a_frame_at_10_hz(void **state)
                                                 .velocity = {0.0, 0.0, table[n].kmh / 3.6}});
     fixture_run(&f, 1);
     for (uint32_t n = 0; n < 3; n++) {
-        double moved = steps_rows(&f).z[n] - 25000.0;
+        double moved = steps_rows(&f).row[n].z - 25000.0;
         double unit = n == 2 ? 0.1 : 0.01;
         assert_true(fabs(floor(moved / unit) * unit - table[n].metres) < 1e-9);
         assert_true(fabs(moved - table[n].kmh / 36.0) < 1e-9);
@@ -136,12 +136,12 @@ static void test_no_body_is_pushed_through_another(void **state)
         uint32_t tank = fixture_put(&f, (struct fixture_entity){.kind = "tank",
                                                                 .at = {25000.0, 100.0, 25000.0},
                                                                 .heading_rad = HALF_PI});
-        steps_rows(&f).state[wreck] = ENTITY_WRECK;
+        steps_rows(&f).row[wreck].state = ENTITY_WRECK;
         steps_drive(&f, tank, 0.5, 0.0, 0.0);
         for (int frame = 0; frame < 1200; frame++) {
             fixture_run(&f, 1);
             struct entities e = steps_rows(&f);
-            assert_true(e.x[wreck] - e.x[tank] > 23.0 - 0.01);
+            assert_true(e.row[wreck].x - e.row[tank].x > 23.0 - 0.01);
         }
         assert_in_range(fixture_event_count(&f, EVENT_COLLISION), 1, 5);
         fixture_close(&f);
@@ -160,13 +160,13 @@ static void test_what_is_pushed_moves_as_fast_as_it_says(void **state)
     uint32_t tank = fixture_put(&f, (struct fixture_entity){.kind = "tank",
                                                             .at = {25000.0, 100.0, 25000.0},
                                                             .heading_rad = HALF_PI});
-    steps_rows(&f).state[wreck] = ENTITY_WRECK;
+    steps_rows(&f).row[wreck].state = ENTITY_WRECK;
     steps_drive(&f, tank, 0.3, 0.0, 0.0);
     for (int frame = 0; frame < 600; frame++) {
         fixture_run(&f, 1);
-        said += steps_rows(&f).vx[wreck] / 60.0;
+        said += steps_rows(&f).row[wreck].vx / 60.0;
     }
-    double moved = steps_rows(&f).x[wreck] - 25005.0;
+    double moved = steps_rows(&f).row[wreck].x - 25005.0;
     assert_true(fabs(moved - said) < 0.2 * said + 0.1);
     fixture_close(&f);
 }
@@ -180,10 +180,10 @@ static void test_a_wreck_is_still_in_the_way(void **state)
         fixture_put(&f, (struct fixture_entity){.kind = "tank", .at = {25020.0, 100.0, 25000.0}});
     fixture_put(&f, (struct fixture_entity){
                         .kind = "jeep", .at = {25000.0, 100.0, 25000.0}, .velocity = {20, 0, 0}});
-    steps_rows(&f).state[wreck] = ENTITY_WRECK;
+    steps_rows(&f).row[wreck].state = ENTITY_WRECK;
     fixture_run(&f, 60);
     assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 1);
-    assert_true(steps_rows(&f).x[1] < 25020.0);
+    assert_true(steps_rows(&f).row[1].x < 25020.0);
     fixture_close(&f);
 }
 
@@ -205,8 +205,8 @@ static void test_an_aircraft_that_flies_into_the_ground_is_destroyed(void **stat
     double half_m = 0.5 * steps_kind(&f, "jet")->height_m; /* the corners of its box touch */
     assert_true(fabs(event->collision.point[1] - 100.0 - half_m) < 1e-6);
     assert_true(fabs((double)event->collision.closing_mps - 60.0) < 1e-4);
-    assert_int_equal(steps_rows(&f).state[0], ENTITY_WRECK);
-    assert_true(steps_rows(&f).y[0] >= 100.0 - 1e-9);
+    assert_int_equal(steps_rows(&f).row[0].state, ENTITY_WRECK);
+    assert_true(steps_rows(&f).row[0].y >= 100.0 - 1e-9);
     fixture_close(&f);
 }
 
@@ -215,7 +215,7 @@ static double energy_jpkg(const struct fixture *f)
 {
     struct entities e = steps_rows(f);
     struct vec3 velocity = entities_velocity(&e, 0);
-    return 0.5 * vec3_dot(velocity, velocity) + GRAVITY_MPS2 * e.y[0];
+    return 0.5 * vec3_dot(velocity, velocity) + GRAVITY_MPS2 * e.row[0].y;
 }
 
 /* It stays where it touches the ground, and does not have the speed of the rest of the frame. */
@@ -230,8 +230,8 @@ static void test_an_aircraft_that_crashes_gains_no_energy(void **state)
                                                 .behaviour = BEHAVIOUR_PATROL,
                                                 .at = {25000, height_m, 25000},
                                                 .velocity = {0, -20, 0}});
-        steps_rows(&f).roll[0] = 3.0;
-        while (steps_rows(&f).state[0] == ENTITY_ACTIVE) {
+        steps_rows(&f).row[0].roll = 3.0;
+        while (steps_rows(&f).row[0].state == ENTITY_ACTIVE) {
             before = energy_jpkg(&f);
             fixture_run(&f, 1);
         }
@@ -275,7 +275,7 @@ static void test_an_aircraft_slowed_on_its_path_still_meets_the_ground(void **st
                         .kind = "jet", .at = {24990, 110, 25000}, .velocity = {180, -180, 0}});
     fixture_run(&f, 1);
     assert_int_equal(fallen_damage(fixture_state(&f).fixed_damage[0]), DAMAGE_HIGH);
-    assert_true(steps_rows(&f).y[0] >= 100.0 - 1e-6); /* not under the ground */
+    assert_true(steps_rows(&f).row[0].y >= 100.0 - 1e-6); /* not under the ground */
     fixture_close(&f);
 }
 
@@ -293,8 +293,9 @@ static void test_response_none_tells_and_changes_nothing(void **state)
                         .kind = "jeep", .at = {25010, 100, 25000}, .velocity = {-16, 0, 0}});
     fixture_run(&f, 240);
     struct entities e = steps_rows(&f);
-    assert_true(fabs(e.x[0] - 25064.0) < 1e-8 && fabs(e.x[1] - 24946.0) < 1e-8);
-    assert_true(e.vx[0] == 16.0 && e.vx[1] == -16.0 && e.harm_j[0] == 0.0 && e.harm_j[1] == 0.0);
+    assert_true(fabs(e.row[0].x - 25064.0) < 1e-8 && fabs(e.row[1].x - 24946.0) < 1e-8);
+    assert_true(e.row[0].vx == 16.0 && e.row[1].vx == -16.0 && e.row[0].harm_j == 0.0 &&
+                e.row[1].harm_j == 0.0);
     assert_int_equal(fixture_state(&f).fixed_damage[0], DAMAGE_NONE);
     assert_true(fixture_event_count(&f, EVENT_COLLISION) >= 2);
     assert_int_equal(fixture_event(&f, EVENT_COLLISION, 0)->collision.response, RESPONSE_NONE);
@@ -348,9 +349,7 @@ static void soil(struct fixture *f)
     memset(next->head, 0x5a, sizeof *next->head);
     memset(next->fixed_damage, 0x5a, view->world.counts.fixed);
     memset(next->contacts, 0x5a, view->header->contact_slots * sizeof *next->contacts);
-#define X(type, name) memset(next->entities.name, 0x5a, next->entities.capacity * sizeof(type));
-    ENTITY_COLUMNS(X)
-#undef X
+    memset(next->entities.row, 0x5a, next->entities.capacity * sizeof *next->entities.row);
     end = now->head->event_end;
     for (uint32_t i = 0; i < view->world.params->events_per_frame; i++)
         memset(&view->events[(end + i) & (view->header->event_slots - 1)], 0x5a,
@@ -411,7 +410,7 @@ static void test_the_checksum_is_that_of_the_state(void **state)
     fixture_run(&f, 30);
     struct state now = fixture_state(&f);
     assert_true(now.head->checksum == state_checksum(&now, f.view.world.counts.fixed));
-    now.entities.x[17] += 1e-9;
+    now.entities.row[17].x += 1e-9;
     assert_true(now.head->checksum != state_checksum(&now, f.view.world.counts.fixed));
     fixture_close(&f);
 }
@@ -430,9 +429,9 @@ static void test_the_head_counts_who_is_there(void **state)
         struct state now = fixture_state(&f);
         uint32_t vehicles = 0, munitions = 0;
         for (uint32_t i = 0; i < now.head->used; i++) {
-            bool round = now.entities.behaviour[i] == BEHAVIOUR_FLIGHT;
-            vehicles += now.entities.state[i] != ENTITY_FREE && !round;
-            munitions += now.entities.state[i] != ENTITY_FREE && round;
+            bool round = now.entities.row[i].behaviour == BEHAVIOUR_FLIGHT;
+            vehicles += now.entities.row[i].state != ENTITY_FREE && !round;
+            munitions += now.entities.row[i].state != ENTITY_FREE && round;
         }
         assert_int_equal(now.head->vehicles, vehicles);
         assert_int_equal(now.head->munitions, munitions);

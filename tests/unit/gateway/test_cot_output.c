@@ -140,7 +140,7 @@ static void test_places_and_types(void **state)
 static void set_damage(uint8_t damage)
 {
     struct state committed = fixture_state(&world);
-    committed.entities.damage[0] = damage;
+    committed.entities.row[0].damage = damage;
     committed.head->tick += 3;
     state_seal(&committed, world.view.world.counts.fixed);
     now_ns += 6000000000u; /* the heartbeat at the latest */

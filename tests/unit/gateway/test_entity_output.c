@@ -181,19 +181,19 @@ static void test_changes_of_what_stands(void **state)
         const struct entities *e = &committed.entities;
         switch (change) {
         case 0:
-            e->heading[0] += 4.0 * RAD_PER_DEG;
+            e->row[0].heading += 4.0 * RAD_PER_DEG;
             break;
         case 1:
-            e->pitch[0] += 4.0 * RAD_PER_DEG;
+            e->row[0].pitch += 4.0 * RAD_PER_DEG;
             break;
         case 2:
-            e->damage[0] = DAMAGE_MED;
+            e->row[0].damage = DAMAGE_MED;
             break;
         case 3:
-            e->y[0] += 1.1;
+            e->row[0].y += 1.1;
             break;
         case 4:
-            e->roll[0] += 4.0 * RAD_PER_DEG;
+            e->row[0].roll += 4.0 * RAD_PER_DEG;
             break;
         default:
             committed.head->paused = 1;
@@ -219,8 +219,8 @@ static void test_parts_count_their_changes(void **state)
     struct state committed = fixture_state(&world);
     uint8_t turret = 0, gun = 0;
     for (int i = 0; i < 300; i++) {
-        committed.entities.turret[0] = (float)((i + 1) / 2 % 7 + 1) * 0.2f;
-        committed.entities.gun[0] = (float)(i % 2 + 1) * 0.1f;
+        committed.entities.row[0].turret = (float)((i + 1) / 2 % 7 + 1) * 0.2f;
+        committed.entities.row[0].gun = (float)(i % 2 + 1) * 0.1f;
         state_seal(&committed, world.view.world.counts.fixed);
         now_ns += 200000000u;
         pass();
@@ -304,7 +304,8 @@ static void test_receivers_have_it_within_the_threshold(void **state)
         const struct entities *e = &committed.entities;
         struct vec3 position;
         struct mat3 matrix;
-        struct mat3 turn = rotation_matrix(rotation_of(e->heading[0], e->pitch[0], e->roll[0]));
+        struct mat3 turn =
+            rotation_matrix(rotation_of(e->row[0].heading, e->row[0].pitch, e->row[0].roll));
         struct mat3 right = local_frame_ecef_turn(&entities.frame.axes, &turn);
         dead_reckoning_at(&known, (double)(now_ns - since_ns) / 1e9, &position, &matrix);
         struct vec3 place = local_frame_world(&entities.frame, position);
@@ -334,7 +335,7 @@ static void test_the_time_stamp_is_of_the_frame(void **state)
     put("tank", 26000.0, 25000.0, 0.0, FORCE_BLUE);
     for (int i = 0; i < 2; i++) {
         struct state committed = fixture_state(&world);
-        committed.entities.damage[0] = (uint8_t)(DAMAGE_LOW + 2 * i);
+        committed.entities.row[0].damage = (uint8_t)(DAMAGE_LOW + 2 * i);
         state_seal(&committed, world.view.world.counts.fixed);
         now_ns += 10000000u * (unsigned)i;
         double before_s = utc_past_hour_s();
@@ -351,8 +352,8 @@ static void test_the_time_stamp_is_of_the_frame(void **state)
 static void next_frame(uint32_t row, double heading, double x)
 {
     struct state committed = fixture_state(&world);
-    committed.entities.heading[row] = heading;
-    committed.entities.x[row] = x;
+    committed.entities.row[row].heading = heading;
+    committed.entities.row[row].x = x;
     state_seal(&committed, world.view.world.counts.fixed);
     fixture_run(&world, 1);
     now_ns += FRAME_NS;
@@ -367,7 +368,7 @@ static void test_what_turns_is_followed(void **state)
     run(30);
     assert_int_equal(entities.followed_count, 0);
     struct state committed = fixture_state(&world);
-    double heading = committed.entities.heading[0], x = committed.entities.x[0];
+    double heading = committed.entities.row[0].heading, x = committed.entities.row[0].x;
     for (int i = 1; i <= 3; i++)
         next_frame(0, heading + 0.02 * i, x); /* 1.2 rad/s: 3.4 degrees */
     pass();
@@ -381,7 +382,7 @@ static void test_what_turns_is_followed(void **state)
     assert_int_equal(count, 0);
     next_frame(0, heading + 0.08 - 4.0 * RAD_PER_DEG, x);
     committed = fixture_state(&world);
-    committed.entities.damage[1] = DAMAGE_MED;
+    committed.entities.row[1].damage = DAMAGE_MED;
     state_seal(&committed, world.view.world.counts.fixed);
     entity_output_follow(&entities, &world.view, now_ns);
     receive();
@@ -453,9 +454,9 @@ static void test_a_lost_state_is_made_good(void **state)
     struct state committed = fixture_state(&world);
     const struct entities *e = &committed.entities;
     uint64_t lost_ns = now_ns;
-    e->vx[0] = e->vz[0] =
+    e->row[0].vx = e->row[0].vz =
         0.0; /* it stops in one frame, and the Entity State that says so is lost */
-    e->order[0] = e->behaviour[0] = BEHAVIOUR_IDLE;
+    e->row[0].order = e->row[0].behaviour = BEHAVIOUR_IDLE;
     state_seal(&committed, world.view.world.counts.fixed);
     for (int sent = 0; sent < 2;) {
         sent += run(3);
@@ -564,7 +565,7 @@ static void test_a_rate_for_all_and_what_turns(void **state)
     output.rate_ps = 20; /* 8 are heartbeats, and the helicopter wants one in each frame */
     for (int i = 0; i < 1200; i++) {
         struct state committed = fixture_state(&world);
-        next_frame(0, i % 2 * 10.0 * RAD_PER_DEG, committed.entities.x[0]);
+        next_frame(0, i % 2 * 10.0 * RAD_PER_DEG, committed.entities.row[0].x);
         if (i % 3 == 0)
             pass();
         else
@@ -587,17 +588,19 @@ static void test_angular_velocities(void **state)
     for (int axis = 0; axis < 3; axis++) {
         struct state committed = fixture_state(&world);
         const struct entities *e = &committed.entities;
-        double *angle = axis == 0 ? e->roll : axis == 1 ? e->pitch : e->heading;
-        e->roll[0] = e->pitch[0] = e->heading[0] = 0.0;
+        double *angle = axis == 0   ? &e->row[0].roll
+                        : axis == 1 ? &e->row[0].pitch
+                                    : &e->row[0].heading;
+        e->row[0].roll = e->row[0].pitch = e->row[0].heading = 0.0;
         for (int i = 0; i < 6; i++) { /* 0.02 rad in three frames: 0.4 rad/s */
-            angle[0] += 0.02;
+            *angle += 0.02;
             committed.head->tick += 3;
             state_seal(&committed, world.view.world.counts.fixed);
             now_ns += 3 * FRAME_NS;
             pass();
         }
         now_ns += 6000000000u; /* the heartbeat at the latest */
-        angle[0] += 0.02;
+        *angle += 0.02;
         committed.head->tick += 3;
         state_seal(&committed, world.view.world.counts.fixed);
         pass();

@@ -35,16 +35,16 @@ static void test_an_entity_state_becomes_a_row(void **state)
     const struct state now = fixture_state(&f);
     const struct entities *e = &now.entities;
     assert_int_equal(row, 1);
-    assert_int_equal(e->kind[row], fixture_kind(&f, "tank"));
-    assert_int_equal(e->force[row], FORCE_RED);
-    assert_int_equal(e->damage[row], DAMAGE_LOW);
-    assert_true(fabs(e->x[row] - 25100.0) < 1e-6 && fabs(e->z[row] - 24900.0) < 1e-6);
-    assert_true(fabs(e->y[row] - FIXTURE_GROUND_M) < 1e-6); /* clamped */
-    assert_true(fabs(e->vx[row] - 4.0) < 1e-5 && fabs(e->vz[row] + 3.0) < 1e-5);
-    assert_true(fabs(e->heading[row] - 1.0) < 1e-5 && fabs(e->pitch[row] - 0.1) < 1e-5 &&
-                fabs(e->roll[row] + 0.2) < 1e-5);
-    assert_true(fabs((double)e->turret[row] + 1.5) < 1e-3);
-    assert_true(fabs((double)e->gun[row] - 0.25) < 1e-3);
+    assert_int_equal(e->row[row].kind, fixture_kind(&f, "tank"));
+    assert_int_equal(e->row[row].force, FORCE_RED);
+    assert_int_equal(e->row[row].damage, DAMAGE_LOW);
+    assert_true(fabs(e->row[row].x - 25100.0) < 1e-6 && fabs(e->row[row].z - 24900.0) < 1e-6);
+    assert_true(fabs(e->row[row].y - FIXTURE_GROUND_M) < 1e-6); /* clamped */
+    assert_true(fabs(e->row[row].vx - 4.0) < 1e-5 && fabs(e->row[row].vz + 3.0) < 1e-5);
+    assert_true(fabs(e->row[row].heading - 1.0) < 1e-5 && fabs(e->row[row].pitch - 0.1) < 1e-5 &&
+                fabs(e->row[row].roll + 0.2) < 1e-5);
+    assert_true(fabs((double)e->row[row].turret + 1.5) < 1e-3);
+    assert_true(fabs((double)e->row[row].gun - 0.25) < 1e-3);
     struct remote_record record = remote_record_of(&f.view.commands[RING_GATEWAY]->slot[0]);
     assert_string_equal(record.marking, "T72");
 }
@@ -67,12 +67,12 @@ static void test_body_axes(void **state)
     struct vec3 forward = rotation_apply(&turn, (struct vec3){60.0, 0.0, 0.0});
     struct vec3 down = rotation_apply(&turn, (struct vec3){0.0, -0.5, 0.0});
     assert_true(vec3_length(vec3_sub(entities_velocity(e, 1), forward)) < 1e-4);
-    assert_true(fabs(e->spin_x[1] - down.x) + fabs(e->spin_y[1] - down.y) +
-                    fabs(e->spin_z[1] - down.z) <
+    assert_true(fabs(e->row[1].spin_x - down.x) + fabs(e->row[1].spin_y - down.y) +
+                    fabs(e->row[1].spin_z - down.z) <
                 1e-5);
-    double before = e->heading[1];
+    double before = e->row[1].heading;
     fixture_run(&f, 30);
-    assert_true(steps_rows(&f).heading[1] - before > 0.2); /* it turns to the right */
+    assert_true(steps_rows(&f).row[1].heading - before > 0.2); /* it turns to the right */
 }
 
 static void test_it_is_lost(void **state)
@@ -85,7 +85,7 @@ static void test_it_is_lost(void **state)
         take(&pdu, &peer);
     }
     assert_int_equal(row_of(5), 1);
-    assert_int_equal(steps_rows(&f).id[1], 2); /* the row of the first one */
+    assert_int_equal(steps_rows(&f).row[1].id, 2); /* the row of the first one */
     pass(11.0);
     assert_int_equal(row_of(5), 1);
     pass(2.0); /* 13 s after the last */
@@ -263,7 +263,7 @@ static void test_places_that_are_none(void **state)
     assert_int_equal(input.refused[REMOTE_INPUT_PLACE], 2);
     assert_int_equal(input.refused[REMOTE_INPUT_HEIGHT], 1);
     pass(0.1);
-    assert_true(fabs(steps_rows(&f).x[1] - 25100.0) < 1e-6);
+    assert_true(fabs(steps_rows(&f).row[1].x - 25100.0) < 1e-6);
     assert_int_equal(fixture_state(&f).head->used, 2);
 }
 
@@ -330,8 +330,8 @@ static void test_absurd_parts(void **state)
         pdu.part[1] = (struct pdu_part){.type = PDU_GUN_ELEVATION, .value = cases[i].told};
         take(&pdu, &peer);
         pass(0.2);
-        assert_true(fabs((double)steps_rows(&f).turret[1] - cases[i].turret) < 1e-3);
-        assert_true(fabs((double)steps_rows(&f).gun[1] - cases[i].gun) < 1e-3);
+        assert_true(fabs((double)steps_rows(&f).row[1].turret - cases[i].turret) < 1e-3);
+        assert_true(fabs((double)steps_rows(&f).row[1].gun - cases[i].gun) < 1e-3);
     }
 }
 
@@ -360,8 +360,8 @@ static void test_types(void **state)
         if (!cases[i].kind)
             continue;
         pass(0.1);
-        if (steps_rows(&f).kind[1] != fixture_kind(&f, cases[i].kind))
-            fail_msg("case %u is a %s", i, f.view.world.kinds[steps_rows(&f).kind[1]].name);
+        if (steps_rows(&f).row[1].kind != fixture_kind(&f, cases[i].kind))
+            fail_msg("case %u is a %s", i, f.view.world.kinds[steps_rows(&f).row[1].kind].name);
     }
     assert_in_range(input.unknown.count, 5, 10); /* each type once */
 }
@@ -453,7 +453,7 @@ static void test_what_stands_is_told_once(void **state)
     take(&pdu, &peer);
     pass(1.0);
     assert_int_equal(input.tracks, 2);
-    assert_int_equal(steps_rows(&f).damage[1], DAMAGE_LOW);
+    assert_int_equal(steps_rows(&f).row[1].damage, DAMAGE_LOW);
 }
 
 static void test_a_full_ring(void **state)
@@ -502,7 +502,7 @@ static void test_shots(void **state)
     fixture_run(&f, 3);
     assert_int_equal(fixture_event(&f, EVENT_FIRE, 0)->fire.target.id, 1);
     assert_int_equal(fixture_event(&f, EVENT_DETONATION, 0)->detonation.struck_party.id, 1);
-    assert_true(steps_rows(&f).harm_j[0] > 0.0);
+    assert_true(steps_rows(&f).row[0].harm_j > 0.0);
     static const uint8_t none[] = {PDU_RESULT_DUD, PDU_RESULT_MISS, PDU_RESULT_MISS + 1,
                                    PDU_RESULT_MISS_LAST};
     for (uint16_t i = 0; i < sizeof none; i++) {
@@ -537,7 +537,7 @@ static void test_sides(void **state)
         pdu.entity_state.force = sides[i].told;
         take(&pdu, &peer);
         pass(0.2);
-        assert_int_equal(steps_rows(&f).force[row_of(5)], sides[i].force);
+        assert_int_equal(steps_rows(&f).row[row_of(5)].force, sides[i].force);
     }
 }
 
@@ -655,7 +655,7 @@ static void test_a_munition_in_flight(void **state)
     pass(0.1);
     uint32_t row = row_of(8);
     assert_true(row != SLOT_NONE);
-    assert_int_equal(steps_rows(&f).behaviour[row], BEHAVIOUR_FLIGHT);
+    assert_int_equal(steps_rows(&f).row[row].behaviour, BEHAVIOUR_FLIGHT);
     assert_int_equal(fixture_state(&f).head->munitions, 1);
     struct vec3 at = local_frame_ecef(&frame, (struct vec3){25100.0, FIXTURE_GROUND_M, 24900.0});
     memset(&pdu, 0, sizeof pdu);

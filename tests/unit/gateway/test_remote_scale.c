@@ -53,23 +53,23 @@ static void test_a_change_of_the_time_scale(void **state)
     pass(0.2);
     struct entities e = steps_rows(&f);
     uint32_t row = row_of(5), stands = row_of(6);
-    e.climb[row] = 8.0f; /* the acceleration, east */
-    double spin = e.spin_y[row], velocity = e.vx[row];
+    e.row[row].climb = 8.0f; /* the acceleration, east */
+    double spin = e.row[row].spin_y, velocity = e.row[row].vx;
     assert_true(fabs(velocity - 30.0) < 1e-3 && fabs(spin) > 0.1);
     set_scale(4.0);
     e = steps_rows(&f);
     double gain = 8.0 / 16.0 / 60.0;
-    assert_true(fabs(e.vx[row] - velocity / 4.0 - gain) < 1e-4);
-    assert_true(fabs(e.spin_y[row] - spin / 4.0) < 1e-6);
-    assert_true(fabs((double)e.climb[row] - 0.5) < 1e-6);
-    assert_true(e.vx[stands] == 0.0 && e.spin_y[stands] == 0.0);
+    assert_true(fabs(e.row[row].vx - velocity / 4.0 - gain) < 1e-4);
+    assert_true(fabs(e.row[row].spin_y - spin / 4.0) < 1e-6);
+    assert_true(fabs((double)e.row[row].climb - 0.5) < 1e-6);
+    assert_true(e.row[stands].vx == 0.0 && e.row[stands].spin_y == 0.0);
     set_scale(1.0);
     e = steps_rows(&f);
-    assert_true(fabs(e.vx[row] - velocity) < 0.2 && fabs(e.spin_y[row] - spin) < 1e-6);
+    assert_true(fabs(e.row[row].vx - velocity) < 0.2 && fabs(e.row[row].spin_y - spin) < 1e-6);
     set_scale(0.01); /* absurd speeds are cut off, as those that are told */
     e = steps_rows(&f);
-    assert_true(fabs(e.vx[row] - 3000.0) < 200.0);
-    assert_true(fabs((double)e.climb[row]) <= 1e4 + 1.0);
+    assert_true(fabs(e.row[row].vx - 3000.0) < 200.0);
+    assert_true(fabs((double)e.row[row].climb) <= 1e4 + 1.0);
 }
 
 /* What the gateway has told before it saw the new scale is told again. */
@@ -94,7 +94,7 @@ static void test_told_while_the_scale_changes(void **state)
     pass(0.2);
     assert_int_equal(input.tracks, tracks + 2);
     assert_true(fabs(length_of(last_record().velocity) - 15.0) < 1e-3);
-    assert_true(fabs(steps_rows(&f).vx[row_of(5)] - 15.0) < 1e-3);
+    assert_true(fabs(steps_rows(&f).row[row_of(5)].vx - 15.0) < 1e-3);
     pass(0.2); /* once is enough */
     assert_int_equal(input.tracks, tracks + 2);
 }

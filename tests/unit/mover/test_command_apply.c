@@ -49,16 +49,17 @@ static void test_drive_takes_over_and_release_gives_back(void **state)
     assert_int_equal(DOES(.type = COMMAND_DRIVE, .entity = 2, .value = {0.5, -0.25, 1.0}),
                      COMMAND_DONE);
     struct entities e = steps_rows(&f);
-    assert_int_equal(e.behaviour[truck], BEHAVIOUR_DRIVEN);
-    assert_true(e.throttle[truck] == 0.5f && e.steer[truck] == -0.25f && e.climb[truck] == 1.0f);
+    assert_int_equal(e.row[truck].behaviour, BEHAVIOUR_DRIVEN);
+    assert_true(e.row[truck].throttle == 0.5f && e.row[truck].steer == -0.25f &&
+                e.row[truck].climb == 1.0f);
     assert_true(steps_speed(&f, truck) > 0.0); /* in the same frame */
     const struct event *event = fixture_event(&f, EVENT_AGENT, 0);
     assert_int_equal(event->agent.because, REASON_COMMAND);
     assert_int_equal(event->agent.from, BEHAVIOUR_HOLD);
     assert_int_equal(event->agent.to, BEHAVIOUR_DRIVEN);
     assert_int_equal(DOES(.type = COMMAND_RELEASE, .entity = 2), COMMAND_DONE);
-    assert_int_equal(steps_rows(&f).behaviour[truck], BEHAVIOUR_HOLD);
-    assert_true(steps_rows(&f).throttle[truck] == 0.0f);
+    assert_int_equal(steps_rows(&f).row[truck].behaviour, BEHAVIOUR_HOLD);
+    assert_true(steps_rows(&f).row[truck].throttle == 0.0f);
     assert_int_equal(DOES(.type = COMMAND_RELEASE, .entity = 2), COMMAND_CANNOT);
 }
 
@@ -78,7 +79,7 @@ static void test_drive_refuses_values_out_of_range_and_absent_vehicles(void **st
     assert_int_equal(DOES(.type = COMMAND_DRIVE, .entity = 99), COMMAND_NO_SUCH_ENTITY);
     assert_int_equal(DOES(.type = COMMAND_DRIVE, .entity = 0), COMMAND_NO_SUCH_ENTITY);
     assert_int_equal(DOES(.type = COMMAND_RELEASE, .entity = 99), COMMAND_NO_SUCH_ENTITY);
-    steps_rows(&f).state[truck] = ENTITY_WRECK;
+    steps_rows(&f).row[truck].state = ENTITY_WRECK;
     assert_int_equal(DOES(.type = COMMAND_DRIVE, .entity = 2), COMMAND_CANNOT);
 }
 
@@ -87,7 +88,7 @@ static void test_a_round_in_flight_takes_no_commands(void **state)
     uint32_t round = fixture_put(&f, (struct fixture_entity){.kind = "missile",
                                                              .at = {25000.0, 900.0, 25000.0},
                                                              .velocity = {100.0, 0.0, 0.0}});
-    uint32_t id = steps_rows(&f).id[round];
+    uint32_t id = steps_rows(&f).row[round].id;
     (void)state;
     assert_int_equal(DOES(.type = COMMAND_DRIVE, .entity = id), COMMAND_NO_SUCH_ENTITY);
     assert_int_equal(DOES(.type = COMMAND_REMOVE, .entity = id), COMMAND_NO_SUCH_ENTITY);
@@ -102,18 +103,18 @@ static void test_a_lease_keeps_others_out_and_ends(void **state)
     const struct command theirs = {.type = COMMAND_DRIVE, .source = 8, .entity = 1};
     (void)state;
     assert_int_equal(does(mine), COMMAND_DONE);
-    assert_true(steps_rows(&f).driver[tank] == 7);
+    assert_true(steps_rows(&f).row[tank].driver == 7);
     assert_int_equal(does(theirs), COMMAND_TAKEN);
     assert_int_equal(DOES(.type = COMMAND_FIRE, .source = 8, .entity = 1), COMMAND_TAKEN);
     assert_int_equal(DOES(.type = COMMAND_RELEASE, .source = 8, .entity = 1), COMMAND_TAKEN);
     fixture_run(&f, 5);
     assert_int_equal(does(mine), COMMAND_DONE); /* renewed: ten more from here */
     fixture_run(&f, 10);
-    assert_int_equal(steps_rows(&f).behaviour[tank], BEHAVIOUR_DRIVEN);
+    assert_int_equal(steps_rows(&f).row[tank].behaviour, BEHAVIOUR_DRIVEN);
     assert_int_equal(fixture_event_count(&f, EVENT_AGENT), 1);
     fixture_run(&f, 1);
-    assert_int_equal(steps_rows(&f).behaviour[tank], BEHAVIOUR_HOLD);
-    assert_true(steps_rows(&f).driver[tank] == 0 && steps_rows(&f).throttle[tank] == 0.0f);
+    assert_int_equal(steps_rows(&f).row[tank].behaviour, BEHAVIOUR_HOLD);
+    assert_true(steps_rows(&f).row[tank].driver == 0 && steps_rows(&f).row[tank].throttle == 0.0f);
     const struct event *event = fixture_event(&f, EVENT_AGENT, 1);
     assert_int_equal(event->agent.because, REASON_LEASE_OVER);
     assert_int_equal(does(theirs), COMMAND_DONE);
@@ -126,10 +127,10 @@ static void test_a_lease_is_kept_while_paused_and_ends_only_with_simulated_time(
                      COMMAND_DONE);
     DOES(.type = COMMAND_PAUSE);
     fixture_run(&f, 50);
-    assert_int_equal(steps_rows(&f).behaviour[tank], BEHAVIOUR_DRIVEN);
+    assert_int_equal(steps_rows(&f).row[tank].behaviour, BEHAVIOUR_DRIVEN);
     DOES(.type = COMMAND_RESUME);
     fixture_run(&f, 10);
-    assert_int_equal(steps_rows(&f).behaviour[tank], BEHAVIOUR_HOLD);
+    assert_int_equal(steps_rows(&f).row[tank].behaviour, BEHAVIOUR_HOLD);
 }
 
 static void test_an_operator_releases_any_driver(void **state)
@@ -139,8 +140,8 @@ static void test_an_operator_releases_any_driver(void **state)
                      COMMAND_DONE);
     assert_int_equal(DOES(.type = COMMAND_RELEASE, .source = 8, .entity = 1, .amount = 1),
                      COMMAND_DONE);
-    assert_int_equal(steps_rows(&f).behaviour[tank], BEHAVIOUR_HOLD);
-    assert_true(steps_rows(&f).driver[tank] == 0);
+    assert_int_equal(steps_rows(&f).row[tank].behaviour, BEHAVIOUR_HOLD);
+    assert_true(steps_rows(&f).row[tank].driver == 0);
 }
 
 static void test_without_a_lease_anybody_drives_and_without_end(void **state)
@@ -148,7 +149,7 @@ static void test_without_a_lease_anybody_drives_and_without_end(void **state)
     (void)state;
     assert_int_equal(DOES(.type = COMMAND_DRIVE, .source = 7, .entity = 1), COMMAND_DONE);
     fixture_run(&f, 500);
-    assert_int_equal(steps_rows(&f).behaviour[tank], BEHAVIOUR_DRIVEN);
+    assert_int_equal(steps_rows(&f).row[tank].behaviour, BEHAVIOUR_DRIVEN);
     assert_int_equal(DOES(.type = COMMAND_DRIVE, .source = 8, .entity = 1, .amount = 60),
                      COMMAND_DONE); /* and now it is one's own */
     assert_int_equal(DOES(.type = COMMAND_DRIVE, .source = 7, .entity = 1), COMMAND_TAKEN);
@@ -161,8 +162,9 @@ static void test_drive_sets_brake_gear_and_the_turrets_controls(void **state)
                           .value = {0.5, 0.0, 0.0, -1.0, 0.25, 0.75}),
                      COMMAND_DONE);
     struct entities e = steps_rows(&f);
-    assert_int_equal(entity_gear(e.flags[tank]), GEAR_LOW);
-    assert_true(e.brake[tank] == 0.75f && e.traverse[tank] == -1.0f && e.elevate[tank] == 0.25f);
+    assert_int_equal(entity_gear(e.row[tank].flags), GEAR_LOW);
+    assert_true(e.row[tank].brake == 0.75f && e.row[tank].traverse == -1.0f &&
+                e.row[tank].elevate == 0.25f);
     assert_int_equal(DOES(.type = COMMAND_DRIVE, .entity = 1, .force = GEAR_COUNT),
                      COMMAND_OUT_OF_RANGE);
     assert_int_equal(DOES(.type = COMMAND_DRIVE, .entity = 1, .value = {[5] = -0.1}),
@@ -171,8 +173,9 @@ static void test_drive_sets_brake_gear_and_the_turrets_controls(void **state)
                      COMMAND_OUT_OF_RANGE);
     assert_int_equal(DOES(.type = COMMAND_RELEASE, .entity = 1), COMMAND_DONE);
     e = steps_rows(&f);
-    assert_int_equal(e.flags[tank] & ~ENTITY_FLAG_CHASSIS, 0);
-    assert_true(e.brake[tank] == 0.0f && e.traverse[tank] == 0.0f && e.elevate[tank] == 0.0f);
+    assert_int_equal(e.row[tank].flags & ~ENTITY_FLAG_CHASSIS, 0);
+    assert_true(e.row[tank].brake == 0.0f && e.row[tank].traverse == 0.0f &&
+                e.row[tank].elevate == 0.0f);
 }
 
 /* --- fire --------------------------------------------------------------------------------------*/
@@ -244,16 +247,16 @@ static void test_spawn_makes_what_was_asked_for(void **state)
     uint32_t row = steps_find(&f, answer.entity);
     struct entities e = steps_rows(&f);
     assert_int_equal(row, 2);
-    assert_true(e.x[row] == 30000.0 && e.z[row] == 20000.0 && e.y[row] == 350.0);
-    assert_true(fabs(e.vx[row] + 30.0) < 1e-12 && fabs(e.vz[row]) < 1e-12);
-    assert_true(fabs(e.heading[row] - 1.5 * PI) < 1e-12);
-    assert_int_equal(e.force[row], FORCE_RED);
-    assert_int_equal(e.behaviour[row], BEHAVIOUR_HOLD);
-    assert_int_equal(e.state[row], ENTITY_ACTIVE);
-    assert_int_equal(e.rounds[row], steps_kind(&f, "helicopter")->rounds);
+    assert_true(e.row[row].x == 30000.0 && e.row[row].z == 20000.0 && e.row[row].y == 350.0);
+    assert_true(fabs(e.row[row].vx + 30.0) < 1e-12 && fabs(e.row[row].vz) < 1e-12);
+    assert_true(fabs(e.row[row].heading - 1.5 * PI) < 1e-12);
+    assert_int_equal(e.row[row].force, FORCE_RED);
+    assert_int_equal(e.row[row].behaviour, BEHAVIOUR_HOLD);
+    assert_int_equal(e.row[row].state, ENTITY_ACTIVE);
+    assert_int_equal(e.row[row].rounds, steps_kind(&f, "helicopter")->rounds);
     assert_int_equal(fixture_state(&f).head->vehicles, 3);
     fixture_run(&f, 1); /* it moves from the next frame on */
-    assert_true(fabs(steps_rows(&f).x[row] - (30000.0 - 0.5)) < 1e-9);
+    assert_true(fabs(steps_rows(&f).row[row].x - (30000.0 - 0.5)) < 1e-9);
 }
 
 static double to_the_east(double x, double z, const void *context)
@@ -277,7 +280,7 @@ static void test_spawn_puts_jets_over_what_is_ahead(void **state)
                                                .amount = (uint32_t)behaviours[n],
                                                .value = {30000.0, 20000.0, 80.0, HALF_PI, 70.0}});
         assert_int_equal(answer.result, COMMAND_DONE);
-        over[n] = steps_rows(&f).y[steps_find(&f, answer.entity)] - FIXTURE_GROUND_M;
+        over[n] = steps_rows(&f).row[steps_find(&f, answer.entity)].y - FIXTURE_GROUND_M;
     }
     assert_true(over[0] > 200.0 && over[1] == 80.0);
 }
@@ -315,7 +318,7 @@ static void test_remove_frees_the_row_and_its_id_is_gone(void **state)
 {
     (void)state;
     assert_int_equal(DOES(.type = COMMAND_REMOVE, .entity = 2), COMMAND_DONE);
-    assert_int_equal(steps_rows(&f).state[truck], ENTITY_FREE);
+    assert_int_equal(steps_rows(&f).row[truck].state, ENTITY_FREE);
     assert_int_equal(fixture_state(&f).head->vehicles, 1);
     assert_int_equal(DOES(.type = COMMAND_REMOVE, .entity = 2), COMMAND_NO_SUCH_ENTITY);
     assert_int_equal(DOES(.type = COMMAND_DRIVE, .entity = 2), COMMAND_NO_SUCH_ENTITY);
@@ -331,17 +334,17 @@ static void test_paused_frames_do_not_advance_time(void **state)
     (void)state;
     fixture_run(&f, 5);
     assert_int_equal(DOES(.type = COMMAND_PAUSE), COMMAND_DONE);
-    double x = steps_rows(&f).x[jet];
+    double x = steps_rows(&f).row[jet].x;
     assert_int_equal(tick(), 5); /* the frame that pauses stands already */
     fixture_run(&f, 10);
     assert_int_equal(tick(), 5);
     assert_int_equal(fixture_state(&f).head->frame, 16);
     assert_int_equal(fixture_state(&f).head->advanced, 0);
-    assert_true(steps_rows(&f).x[jet] == x);
+    assert_true(steps_rows(&f).row[jet].x == x);
     assert_int_equal(DOES(.type = COMMAND_RESUME), COMMAND_DONE);
     assert_int_equal(tick(), 6);
     assert_int_equal(fixture_state(&f).head->advanced, 1);
-    assert_true(fabs(steps_rows(&f).x[jet] - (x + 4.0)) < 1e-9);
+    assert_true(fabs(steps_rows(&f).row[jet].x - (x + 4.0)) < 1e-9);
 }
 
 static void test_step_advances_just_so_many_frames(void **state)
@@ -522,8 +525,9 @@ static void test_a_row_removed_and_used_again_in_one_frame_is_the_new_one(void *
                                 .value = {40000.0, 40000.0, 500.0, 0.0, 100.0}});
     fixture_run(&f, 1);
     struct entities e = steps_rows(&f);
-    assert_int_equal(e.id[truck], 65);
-    assert_true(e.x[truck] == 40000.0 && e.z[truck] == 40000.0); /* not moved yet, nor swept */
+    assert_int_equal(e.row[truck].id, 65);
+    assert_true(e.row[truck].x == 40000.0 &&
+                e.row[truck].z == 40000.0); /* not moved yet, nor swept */
     assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 0);
 }
 

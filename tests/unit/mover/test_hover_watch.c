@@ -28,7 +28,7 @@ static uint32_t hover(double x, double up_m)
     uint32_t row =
         fixture_put(&f, (struct fixture_entity){.kind = "helicopter", .at = {x, height, 25000.0}});
     struct entities e = steps_rows(&f);
-    e.behaviour[row] = e.order[row] = BEHAVIOUR_IDLE;
+    e.row[row].behaviour = e.row[row].order = BEHAVIOUR_IDLE;
     return row;
 }
 
@@ -45,8 +45,8 @@ static bool has_turns(uint32_t row)
 /* Runs on until just after a frame in which those that hover burn their fuel. */
 static void run_until_burnt(uint32_t row)
 {
-    double before = steps_rows(&f).fuel_l[row];
-    for (uint32_t i = 0; i < 11 * SECOND && steps_rows(&f).fuel_l[row] == before; i++)
+    double before = steps_rows(&f).row[row].fuel_l;
+    for (uint32_t i = 0; i < 11 * SECOND && steps_rows(&f).row[row].fuel_l == before; i++)
         fixture_continue(&f, 1);
 }
 
@@ -59,7 +59,7 @@ static void test_one_that_hovers_alone_has_no_turns(void **state)
     assert_true(rests(alone) && !has_turns(alone));
     assert_true(hover_watch_hovers(&f.stepper.mover.resting.hovering, alone));
     double usual = steps_kind(&f, "helicopter")->cruise_altitude_m;
-    assert_true(fabs(steps_rows(&f).y[alone] - FIXTURE_GROUND_M - usual) < 0.006);
+    assert_true(fabs(steps_rows(&f).row[alone].y - FIXTURE_GROUND_M - usual) < 0.006);
 }
 
 static void test_it_burns_the_fuel_of_ten_seconds_at_once(void **state)
@@ -70,12 +70,12 @@ static void test_it_burns_the_fuel_of_ten_seconds_at_once(void **state)
     fixture_run(&f, 1);
     fixture_continue(&f, SECOND);
     run_until_burnt(alone);
-    double before = steps_rows(&f).fuel_l[alone];
+    double before = steps_rows(&f).row[alone].fuel_l;
     assert_true(rests(alone) && !has_turns(alone));
     fixture_continue(&f, 10 * SECOND - 1);
-    assert_true(steps_rows(&f).fuel_l[alone] == before);
+    assert_true(steps_rows(&f).row[alone].fuel_l == before);
     fixture_continue(&f, 1);
-    double burnt = before - steps_rows(&f).fuel_l[alone];
+    double burnt = before - steps_rows(&f).row[alone].fuel_l;
     assert_true(fabs(burnt - 10.0 * 0.2 * kind->fuel_lps) < 1e-9);
     assert_true(rests(alone) && !has_turns(alone));
 }
@@ -84,11 +84,12 @@ static void test_a_low_tank_brings_it_down(void **state)
 {
     uint32_t alone = hover(25000.0, 0.0);
     (void)state;
-    steps_rows(&f).fuel_l[alone] = steps_kind(&f, "helicopter")->fuel_lps;
+    steps_rows(&f).row[alone].fuel_l = steps_kind(&f, "helicopter")->fuel_lps;
     fixture_run(&f, 1);
     fixture_continue(&f, 12 * SECOND);
-    assert_true(steps_rows(&f).y[alone] < FIXTURE_GROUND_M + 20.0);
-    assert_true(steps_rows(&f).flags[alone] & ENTITY_FLAG_LANDED); /* where it is filled again */
+    assert_true(steps_rows(&f).row[alone].y < FIXTURE_GROUND_M + 20.0);
+    assert_true(steps_rows(&f).row[alone].flags &
+                ENTITY_FLAG_LANDED); /* where it is filled again */
 }
 
 static void test_an_aircraft_that_comes_near_wakes_it(void **state)
@@ -109,10 +110,10 @@ static void test_an_aircraft_that_comes_near_wakes_it(void **state)
     assert_true(rests(alone) && !has_turns(alone));
     fixture_continue(&f, 410); /* the other holds its course, and is 30 m before it */
     assert_false(rests(alone));
-    assert_true(fabs(steps_rows(&f).y[alone] - at.y) > 0.5);
+    assert_true(fabs(steps_rows(&f).row[alone].y - at.y) > 0.5);
     fixture_continue(&f, 40 * SECOND);
     assert_true(rests(alone) && !has_turns(alone) && rests(far));
-    assert_true(fabs(steps_rows(&f).y[alone] - at.y) < 0.02);
+    assert_true(fabs(steps_rows(&f).row[alone].y - at.y) < 0.02);
 }
 
 static void test_those_that_hover_near_each_other_come_to_rest(void **state)
@@ -124,7 +125,7 @@ static void test_those_that_hover_near_each_other_come_to_rest(void **state)
     fixture_continue(&f, 60 * SECOND);
     struct entities e = steps_rows(&f);
     assert_true(rests(one) && rests(other) && has_turns(one) && has_turns(other));
-    assert_true(fabs(e.y[one] - e.y[other]) > 10.0);
+    assert_true(fabs(e.row[one].y - e.row[other].y) > 10.0);
     for (int n = 0; n < 3; n++)
         assert_true(rests(three[n]) && has_turns(three[n]));
 }

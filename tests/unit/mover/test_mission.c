@@ -117,7 +117,7 @@ static void test_objectives_end_a_phase(void **state)
         run_s(3.0);
         /* Red holds it, so blue has not taken it, and does not hold it. */
         check_phase((uint32_t)lost);
-        steps_rows(&f).z[1] = 25100.0; /* B is on the hill */
+        steps_rows(&f).row[1].z = 25100.0; /* B is on the hill */
         run_s(3.0);
         check_phase(1);
         assert_int_equal(battle()->objective[0].owner, FORCE_BLUE);
@@ -132,9 +132,9 @@ static void test_an_equal_enemy_keeps_an_objective(void **state)
     run_s(2.0);
     check_phase(0);
     const struct entities rows = steps_rows(&f);
-    rows.x[2] = rows.x[0] = 25100.0;
-    rows.z[2] = 25050.0;
-    rows.z[0] = 25150.0;
+    rows.row[2].x = rows.row[0].x = 25100.0;
+    rows.row[2].z = 25050.0;
+    rows.row[0].z = 25150.0;
     run_s(2.0);
     check_phase(1);
     assert_int_equal(battle()->objective[0].owner, FORCE_RED);
@@ -151,13 +151,13 @@ static void test_who_cruises_counts_where_it_is(void **state)
     open_mission("A", HOLD_UNTIL("enemy_in = \"hill\";"), "");
     fixture_run(&f, 1); /* a body that is new goes by frames if spheres may be in each other */
     const struct entities rows = steps_rows(&f);
-    rows.x[2] = 25010.0;
-    rows.z[2] = 25100.0;
-    rows.heading[2] = HALF_PI;
-    rows.vx[2] = 20.0;
-    rows.cruise_tick[2] = (uint32_t)fixture_state(&f).head->tick + 2 * HZ;
+    rows.row[2].x = 25010.0;
+    rows.row[2].z = 25100.0;
+    rows.row[2].heading = HALF_PI;
+    rows.row[2].vx = 20.0;
+    rows.row[2].cruise_tick = (uint32_t)fixture_state(&f).head->tick + 2 * HZ;
     run_s(1.3);
-    assert_true(now()->cruise_tick[2] > fixture_state(&f).head->tick);
+    assert_true(now()->row[2].cruise_tick > fixture_state(&f).head->tick);
     assert_int_equal(battle()->objective[0].present[FORCE_RED], 0);
     fixture_continue(&f, 2 * HZ);
     assert_int_equal(battle()->objective[0].present[FORCE_RED], 1);
@@ -199,7 +199,7 @@ static void test_losses_end_a_phase(void **state)
                            "\"hold\"; } ); } );");
     run_s(3.0);
     check_phase(0);
-    steps_rows(&f).state[0] = ENTITY_WRECK;
+    steps_rows(&f).row[0].state = ENTITY_WRECK;
     run_s(1.5);
     check_phase(1);
     assert_int_equal(battle()->mission[0].able, 0);
@@ -234,12 +234,12 @@ static void test_a_phase_says_whom_to_fire_at(void **state)
                  "order = \"hold\"; }",
                  "");
     run_s(1.0);
-    assert_int_equal(now()->flags[0], ENTITY_FLAG_HOLD_FIRE);
-    assert_int_equal(now()->flags[1], 0); /* not of the mission */
+    assert_int_equal(now()->row[0].flags, ENTITY_FLAG_HOLD_FIRE);
+    assert_int_equal(now()->row[1].flags, 0); /* not of the mission */
     run_s(2.5);
-    assert_int_equal(now()->flags[0], ENTITY_FLAG_FIRE_AT_WILL);
+    assert_int_equal(now()->row[0].flags, ENTITY_FLAG_FIRE_AT_WILL);
     run_s(3.0);
-    assert_int_equal(now()->flags[0], 0);
+    assert_int_equal(now()->row[0].flags, 0);
     fixture_close(&f);
 }
 
@@ -253,11 +253,11 @@ static void test_orders_that_go_somewhere(void **state)
                  orders[i]);
         open_mission("A", phases, "");
         run_s(60.0);
-        if (!(now()->x[0] > 24970.0 && now()->x[0] < 25230.0 && now()->z[0] > 24970.0 &&
-              now()->z[0] < 25230.0))
-            fail_msg("%s: it is at [%.0f, %.0f]", orders[i], now()->x[0], now()->z[0]);
-        assert_true(steps_speed(&f, 0) < 0.1); /* and stays there */
-        assert_true(now()->z[1] > 25390.0);    /* the other one has no order */
+        if (!(now()->row[0].x > 24970.0 && now()->row[0].x < 25230.0 && now()->row[0].z > 24970.0 &&
+              now()->row[0].z < 25230.0))
+            fail_msg("%s: it is at [%.0f, %.0f]", orders[i], now()->row[0].x, now()->row[0].z);
+        assert_true(steps_speed(&f, 0) < 0.1);  /* and stays there */
+        assert_true(now()->row[1].z > 25390.0); /* the other one has no order */
         fixture_close(&f);
     }
 }
@@ -298,9 +298,9 @@ static void test_a_patrol_and_a_strike_stay_in_their_area(void **state)
         run_s(60.0);
         for (int n = 0; n < 20; n++) {
             run_s(2.0);
-            assert_true(now()->z[0] < 25260.0 && now()->z[0] > 24940.0);
+            assert_true(now()->row[0].z < 25260.0 && now()->row[0].z > 24940.0);
         }
-        assert_int_equal(now()->order[0], BEHAVIOUR_PATROL);
+        assert_int_equal(now()->row[0].order, BEHAVIOUR_PATROL);
         fixture_close(&f);
     }
 }
@@ -392,12 +392,12 @@ static void test_supplies_fill_up(void **state)
     (void)state;
     open_mission("A", "{ name = \"a\"; order = \"resupply\"; to = [25100.0, 25400.0]; }", "");
     const struct entities rows = steps_rows(&f);
-    rows.rounds[0] = rows.rounds[1] = 1;
-    rows.fuel_l[0] = 100.0;
+    rows.row[0].rounds = rows.row[1].rounds = 1;
+    rows.row[0].fuel_l = 100.0;
     run_s(25.0);
-    assert_int_equal(now()->rounds[0], steps_kind(&f, "tank")->rounds);
-    assert_true(now()->fuel_l[0] > 0.99 * steps_kind(&f, "tank")->fuel_l);
-    assert_int_equal(now()->rounds[1], 1);
+    assert_int_equal(now()->row[0].rounds, steps_kind(&f, "tank")->rounds);
+    assert_true(now()->row[0].fuel_l > 0.99 * steps_kind(&f, "tank")->fuel_l);
+    assert_int_equal(now()->row[1].rounds, 1);
     fixture_close(&f);
 }
 
@@ -416,14 +416,14 @@ static void test_only_some_orders_end_a_fight(void **state)
         open_mission("A", phases, "");
         run_s(1.0);
         const struct entities rows = steps_rows(&f);
-        rows.behaviour[0] = BEHAVIOUR_ATTACK;
-        rows.target_slot[0] = 2;
-        rows.target_id[0] = 3;
-        rows.until_tick[0] = 100 * HZ;
+        rows.row[0].behaviour = BEHAVIOUR_ATTACK;
+        rows.row[0].target_slot = 2;
+        rows.row[0].target_id = 3;
+        rows.row[0].until_tick = 100 * HZ;
         run_s(4.0);
         check_phase(1);
-        assert_int_equal(now()->behaviour[0], i == 0 ? BEHAVIOUR_ROUTE : BEHAVIOUR_ATTACK);
-        assert_int_equal(now()->order[0], BEHAVIOUR_ROUTE);
+        assert_int_equal(now()->row[0].behaviour, i == 0 ? BEHAVIOUR_ROUTE : BEHAVIOUR_ATTACK);
+        assert_int_equal(now()->row[0].order, BEHAVIOUR_ROUTE);
         fixture_close(&f);
     }
 }
@@ -443,10 +443,10 @@ static void test_a_reaction_interrupts_and_resumes(void **state)
     check_phase(0);
     run_s(2.0);
     check_phase(2);
-    assert_int_equal(now()->order[0], BEHAVIOUR_ROUTE);
+    assert_int_equal(now()->row[0].order, BEHAVIOUR_ROUTE);
     run_s(6.0);
     check_phase(0);
-    assert_int_equal(now()->order[0], BEHAVIOUR_IDLE);
+    assert_int_equal(now()->row[0].order, BEHAVIOUR_IDLE);
     run_s(10.0);
     check_phase(0); /* it happens once */
     const struct event *event = fixture_event(&f, EVENT_MISSION, 2);
@@ -464,9 +464,9 @@ static void test_the_battle_ends_and_begins_again(void **state)
                      "objective = \"hill\"; } ); } );");
     run_s(5.0);
     check_phase(1);
-    steps_rows(&f).z[1] = 25100.0; /* B takes the hill */
-    steps_rows(&f).state[2] = ENTITY_WRECK;
-    steps_rows(&f).rounds[0] = steps_rows(&f).rounds[1] = 2;
+    steps_rows(&f).row[1].z = 25100.0; /* B takes the hill */
+    steps_rows(&f).row[2].state = ENTITY_WRECK;
+    steps_rows(&f).row[0].rounds = steps_rows(&f).row[1].rounds = 2;
     run_s(4.5);
     assert_int_equal(battle()->ended_tick, 0);
     run_s(1.0);
@@ -482,8 +482,8 @@ static void test_the_battle_ends_and_begins_again(void **state)
     assert_int_equal(battle()->round, 2);
     assert_int_equal(battle()->ended_tick, 0);
     assert_int_equal(battle()->begun[FORCE_RED], 0);
-    assert_int_equal(now()->rounds[0], steps_kind(&f, "tank")->rounds);
-    assert_int_equal(now()->rounds[1], 2); /* not of a mission */
+    assert_int_equal(now()->row[0].rounds, steps_kind(&f, "tank")->rounds);
+    assert_int_equal(now()->row[1].rounds, 2); /* not of a mission */
     check_phase(0);
     fixture_close(&f);
 }

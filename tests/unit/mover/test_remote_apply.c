@@ -57,14 +57,14 @@ static void test_a_track_makes_a_row(void **state)
     uint32_t row = remotes_row(&f, REMOTE);
     const struct entities *e = &now.entities;
     assert_int_equal(row, 1);
-    assert_int_equal(e->id[row], 2);
-    assert_int_equal(e->kind[row], fixture_kind(&f, "tank"));
-    assert_int_equal(e->force[row], FORCE_RED);
-    assert_int_equal(e->damage[row], DAMAGE_MED);
-    assert_int_equal(e->state[row], ENTITY_ACTIVE);
-    assert_true(e->x[row] == there.x && e->z[row] == there.z);
-    assert_true(fabs(e->heading[row] - 1.0) < 1e-6);
-    assert_true(fabs((double)e->turret[row] - 0.25 * PI) < 1e-3);
+    assert_int_equal(e->row[row].id, 2);
+    assert_int_equal(e->row[row].kind, fixture_kind(&f, "tank"));
+    assert_int_equal(e->row[row].force, FORCE_RED);
+    assert_int_equal(e->row[row].damage, DAMAGE_MED);
+    assert_int_equal(e->row[row].state, ENTITY_ACTIVE);
+    assert_true(e->row[row].x == there.x && e->row[row].z == there.z);
+    assert_true(fabs(e->row[row].heading - 1.0) < 1e-6);
+    assert_true(fabs((double)e->row[row].turret - 0.25 * PI) < 1e-3);
     assert_int_equal(now.head->vehicles, 2);
     assert_int_equal(now.head->command_cursor[RING_GATEWAY], 1);
     fixture_run(&f, 100);
@@ -81,16 +81,16 @@ static void test_it_keeps_row_and_id(void **state)
         record.position[0] += 1.0;
         assert_int_equal(does(record), REMOTE_TAKEN);
         assert_int_equal(remotes_row(&f, REMOTE), 1);
-        assert_int_equal(steps_rows(&f).id[1], 2);
+        assert_int_equal(steps_rows(&f).row[1].id, 2);
     }
     record.damage = DAMAGE_DESTROYED;
     assert_int_equal(does(record), REMOTE_TAKEN);
-    assert_int_equal(steps_rows(&f).state[1], ENTITY_WRECK);
+    assert_int_equal(steps_rows(&f).row[1].state, ENTITY_WRECK);
     fixture_run(&f, 30);
     assert_int_equal(remotes_row(&f, REMOTE), 1);
     record.damage = DAMAGE_NONE; /* repaired */
     assert_int_equal(does(record), REMOTE_TAKEN);
-    assert_int_equal(steps_rows(&f).state[1], ENTITY_ACTIVE);
+    assert_int_equal(steps_rows(&f).row[1].state, ENTITY_ACTIVE);
     record.type = REMOTE_LOST;
     assert_int_equal(does(record), REMOTE_TAKEN);
     assert_int_equal(remotes_row(&f, REMOTE), SLOT_NONE);
@@ -147,7 +147,7 @@ static void test_a_jump_is_refused(void **state)
     record.position[0] = 1000.0;
     record.position[2] = 49000.0;
     assert_int_equal(does(record), REMOTE_JUMPS);
-    assert_true(steps_rows(&f).x[1] == there.x && steps_rows(&f).z[1] == there.z);
+    assert_true(steps_rows(&f).row[1].x == there.x && steps_rows(&f).row[1].z == there.z);
 }
 
 /* Who owns an entity is for the gateway alone. */
@@ -161,12 +161,12 @@ static void test_an_owner_has_no_effect(void **state)
     assert_int_equal(fixture_state(&f).head->vehicles, 1);
     assert_int_equal(does(track), REMOTE_TAKEN);
     struct entities e = steps_rows(&f);
-    uint32_t row = remotes_row(&f, REMOTE), heard = e.seen_tick[row];
+    uint32_t row = remotes_row(&f, REMOTE), heard = e.row[row].seen_tick;
     assert_int_equal(does(owner), REMOTE_TAKEN);
     e = steps_rows(&f);
     assert_int_equal(remotes_row(&f, REMOTE), row);
-    assert_int_equal(e.seen_tick[row], heard); /* its owner has said nothing of its place */
-    assert_true(e.x[row] == there.x && e.z[row] == there.z);
+    assert_int_equal(e.row[row].seen_tick, heard); /* its owner has said nothing of its place */
+    assert_true(e.row[row].x == there.x && e.row[row].z == there.z);
 }
 
 static void test_nobody_drives_them(void **state)
@@ -208,7 +208,7 @@ static void test_a_shot_alarms_its_target(void **state)
     struct remote_record record = remotes_track(&f, REMOTE, there);
     (void)state;
     assert_int_equal(does(record), REMOTE_TAKEN);
-    steps_rows(&f).behaviour[own] = steps_rows(&f).order[own] = BEHAVIOUR_IDLE;
+    steps_rows(&f).row[own].behaviour = steps_rows(&f).row[own].order = BEHAVIOUR_IDLE;
     record.type = REMOTE_FIRE;
     record.kind = fixture_kind(&f, "shell");
     record.entity = 1;
@@ -241,7 +241,7 @@ static void test_a_hit_harms_by_our_rules(void **state)
     assert_int_equal(detonation->struck, STRUCK_VEHICLE);
     assert_int_equal(detonation->struck_party.id, 1);
     assert_int_equal(detonation->remote, 1);
-    assert_true(steps_rows(&f).harm_j[own] > 0.0);
+    assert_true(steps_rows(&f).row[own].harm_j > 0.0);
     assert_int_equal(fixture_event_count(&f, EVENT_FIRE), 0);
     assert_int_equal(fixture_state(&f).head->munitions, 0);
     record.entity = 77;
@@ -349,13 +349,13 @@ static double harm_after(float flown_m)
                                    .velocity = {0.0f, 0.0f, 1500.0f}, /* at its front */
                                    .position = {0.0, 1.0, 0.0},
                                    .flown_m = flown_m};
-    steps_rows(&f).harm_j[own] = 0.0;
-    steps_rows(&f).damage[own] = DAMAGE_NONE;
-    steps_rows(&f).state[own] = ENTITY_ACTIVE;
-    steps_rows(&f).born_tick[own] = 0;
+    steps_rows(&f).row[own].harm_j = 0.0;
+    steps_rows(&f).row[own].damage = DAMAGE_NONE;
+    steps_rows(&f).row[own].state = ENTITY_ACTIVE;
+    steps_rows(&f).row[own].born_tick = 0;
     assert_int_equal(does(record), REMOTE_TAKEN);
     fixture_run(&f, 2);
-    return steps_rows(&f).harm_j[own];
+    return steps_rows(&f).row[own].harm_j;
 }
 
 static void test_a_far_round_pierces_less(void **state)
@@ -387,8 +387,8 @@ static void test_a_body_strikes(void **state)
     body.mass_kg = (float)tank->mass_kg;
     assert_int_equal(does(body), REMOTE_TAKEN);
     struct entities e = steps_rows(&f);
-    assert_true(fabs(e.vz[own] - 10.0) < 0.5); /* inelastic, and as heavy */
-    assert_true(e.harm_j[own] > 0.0);
+    assert_true(fabs(e.row[own].vz - 10.0) < 0.5); /* inelastic, and as heavy */
+    assert_true(e.row[own].harm_j > 0.0);
     const struct event_collision *told = &fixture_event(&f, EVENT_COLLISION, 0)->collision;
     assert_int_equal(told->a.id, 1);
     assert_int_equal(told->remote, 1);
@@ -396,9 +396,9 @@ static void test_a_body_strikes(void **state)
     assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 1);
     /* What parts already is struck no more. */
     body.velocity[2] = 5.0f;
-    double vz = steps_rows(&f).vz[own];
+    double vz = steps_rows(&f).row[own].vz;
     assert_int_equal(does(body), REMOTE_TAKEN);
-    assert_true(steps_rows(&f).vz[own] <= vz);
+    assert_true(steps_rows(&f).row[own].vz <= vz);
     assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 1);
     body.mass_kg = 0.0f;
     assert_int_equal(does(body), REMOTE_UNKNOWN);
@@ -422,16 +422,16 @@ static void test_a_munition_flies(void **state)
     struct entities e = steps_rows(&f);
     remote_marking(&e, row, marking);
     assert_string_equal(marking, "HELLFIRE");
-    assert_int_equal(e.behaviour[row], BEHAVIOUR_FLIGHT);
+    assert_int_equal(e.row[row].behaviour, BEHAVIOUR_FLIGHT);
     assert_int_equal(fixture_state(&f).head->munitions, 1);
     assert_int_equal(fixture_state(&f).head->vehicles, 1);
     fixture_run(&f, 120);
     e = steps_rows(&f);
     assert_int_equal(remotes_row(&f, REMOTE), row);
-    assert_true(fabs(e.z[row] - (24800.0 + 200.0 * 121.0 / 60.0)) < 5.0);
+    assert_true(fabs(e.row[row].z - (24800.0 + 200.0 * 121.0 / 60.0)) < 5.0);
     assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 0);
     assert_int_equal(fixture_event_count(&f, EVENT_DETONATION), 0);
-    assert_true(e.harm_j[own] == 0.0);
+    assert_true(e.row[own].harm_j == 0.0);
     record.kind = fixture_kind(&f, "tank"); /* no munition becomes a vehicle */
     assert_int_equal(does(record), REMOTE_NO_KIND);
     record.type = REMOTE_LOST;

@@ -49,8 +49,8 @@ static void test_what_has_nothing_to_do_rests(void **state)
                                                               .at = {25000.0, 100.0, 25500.0},
                                                               .velocity = {5.0, 0.0, 0.0}});
     (void)state;
-    steps_rows(&f).flags[looks] = ENTITY_FLAG_FIRE_AT_WILL;
-    steps_rows(&f).y[hovers] += steps_kind(&f, "helicopter")->cruise_altitude_m;
+    steps_rows(&f).row[looks].flags = ENTITY_FLAG_FIRE_AT_WILL;
+    steps_rows(&f).row[hovers].y += steps_kind(&f, "helicopter")->cruise_altitude_m;
     fixture_run(&f, 1); /* it tells mover and collider that the test has written */
     fixture_continue(&f, 20 * SECOND);
     while (f.stepper.mover.neighbours.tick % 6 != 1) /* nobody has just decided */
@@ -84,12 +84,12 @@ static void test_a_crater_wakes_what_stands_at_its_rim(void **state)
     fixture_run(&f, 1);
     fixture_continue(&f, SECOND);
     assert_true(rests(tank) && rests(far));
-    double before = steps_rows(&f).pitch[tank];
+    double before = steps_rows(&f).row[tank].pitch;
     struct state now = fixture_state(&f);
     now.craters[0] = (struct crater){25000.0, 25008.0, 6.0f, 2.0f, 1};
     now.head->crater_count = 1;
     fixture_continue(&f, 2); /* in the first frame it takes to its springs as it stood */
-    assert_true(steps_rows(&f).pitch[tank] != before);
+    assert_true(steps_rows(&f).row[tank].pitch != before);
     assert_true(rests(far));
 }
 
@@ -99,10 +99,11 @@ static void test_a_command_wakes_the_row(void **state)
     (void)state;
     fixture_run(&f, 1);
     fixture_continue(&f, SECOND);
-    steps_send(
-        &f, RING_CLIENTS,
-        (struct command){
-            .source = 1, .type = COMMAND_DRIVE, .entity = steps_rows(&f).id[tank], .value = {1.0}});
+    steps_send(&f, RING_CLIENTS,
+               (struct command){.source = 1,
+                                .type = COMMAND_DRIVE,
+                                .entity = steps_rows(&f).row[tank].id,
+                                .value = {1.0}});
     fixture_continue(&f, SECOND);
     assert_false(rests(tank));
     assert_true(steps_speed(&f, tank) > 1.0);
@@ -117,18 +118,18 @@ static void test_a_laid_gun_rests_until_it_fires(void **state)
     (void)state;
     steps_kind(&f, "truck")->resistance_j = 1e12;
     struct entities e = steps_rows(&f);
-    e.force[blue] = FORCE_BLUE;
-    e.flags[red] = ENTITY_FLAG_FIRE_AT_WILL | ENTITY_FLAG_STAND;
+    e.row[blue].force = FORCE_BLUE;
+    e.row[red].flags = ENTITY_FLAG_FIRE_AT_WILL | ENTITY_FLAG_STAND;
     fixture_run(&f, 1);
     fixture_continue(&f, 20 * SECOND);
-    loaded = steps_rows(&f).rounds[red];
+    loaded = steps_rows(&f).row[red].rounds;
     for (uint32_t frame = 0; frame < 30 * SECOND; frame++) {
         fixture_continue(&f, 1);
-        rested += rests(red) && has_turns(red) && steps_rows(&f).target_id[red] != 0;
+        rested += rests(red) && has_turns(red) && steps_rows(&f).row[red].target_id != 0;
     }
     print_message("rested in %u of %u frames, fired %u rounds\n", rested, 30 * SECOND,
-                  loaded - steps_rows(&f).rounds[red]);
-    assert_true(loaded - steps_rows(&f).rounds[red] >= 2);
+                  loaded - steps_rows(&f).row[red].rounds);
+    assert_true(loaded - steps_rows(&f).row[red].rounds >= 2);
     assert_true(rested > 20 * SECOND);
 }
 
@@ -155,10 +156,10 @@ static void test_a_remote_row_that_stands_rests(void **state)
     stands.position[0] += 1.0; /* its owner corrects it, a little in each frame */
     remotes_send(&f, stands);
     fixture_continue(&f, 3);
-    assert_true(steps_rows(&f).x[row] > 25000.01 && steps_rows(&f).x[row] < 25000.9);
+    assert_true(steps_rows(&f).row[row].x > 25000.01 && steps_rows(&f).row[row].x < 25000.9);
     fixture_continue(&f, SECOND);
     assert_true(rests(row));
-    assert_true(fabs(steps_rows(&f).x[row] - 25001.0) < 1e-6);
+    assert_true(fabs(steps_rows(&f).row[row].x - 25001.0) < 1e-6);
 }
 
 int main(void)

@@ -30,9 +30,7 @@ static void soil(struct fixture *f)
     struct moved *m = &f->view.m;
     memset(m->head, 0x5a, sizeof *m->head);
     memset(m->intents, 0x5a, f->view.world.params->intents_per_frame * sizeof *m->intents);
-#define X(type, name) memset(m->entities.name, 0x5a, m->entities.capacity * sizeof(type));
-    ENTITY_COLUMNS(X)
-#undef X
+    memset(m->entities.row, 0x5a, m->entities.capacity * sizeof *m->entities.row);
 }
 
 static void test_moving_again_over_anything_gives_the_same_bytes(void **state)
@@ -100,7 +98,7 @@ static void test_no_trigger_outlives_its_frame(void **state)
         fixture_run(&f, 1);
         struct state now = fixture_state(&f);
         for (uint32_t i = 0; i < now.head->used; i++)
-            assert_int_equal(now.entities.trigger[i], 0);
+            assert_int_equal(now.entities.row[i].trigger, 0);
     }
     fixture_close(&f);
 }
@@ -118,8 +116,8 @@ static void test_a_round_moves_from_the_frame_after_its_shot(void **state)
     assert_true(event->fire.point[0] == muzzle.x && event->fire.point[2] == muzzle.z);
     fixture_run(&f, 1);
     e = steps_rows(&f);
-    double least = 1.0 - 0.001, z = e.z[1] - muzzle.z; /* drag takes 0.2 % of its speed */
-    assert_true(fabs(e.x[1] - (muzzle.x + v.x / 60.0)) < 1e-3);
+    double least = 1.0 - 0.001, z = e.row[1].z - muzzle.z; /* drag takes 0.2 % of its speed */
+    assert_true(fabs(e.row[1].x - (muzzle.x + v.x / 60.0)) < 1e-3);
     assert_true(z / (v.z / 60.0) < 1.0 && z / (v.z / 60.0) > least);
     fixture_close(&f);
 }
@@ -175,7 +173,7 @@ static void test_the_dead_do_not_fire(void **state)
     fixture_open(&f, "vehicles = ( { kind = \"tank\"; name = \"A\"; at = [25000.0, 25000.0]; },\n"
                      "             { kind = \"tank\"; name = \"B\"; at = [25000.0, 26000.0]; } );\n"
                      "fires = ( { at_s = 0.5; shooter = \"A\"; target = \"B\"; } );\n");
-    steps_rows(&f).state[0] = ENTITY_WRECK;
+    steps_rows(&f).row[0].state = ENTITY_WRECK;
     fixture_run(&f, 60);
     assert_int_equal(fixture_event_count(&f, EVENT_FIRE), 0);
     assert_int_equal(fixture_state(&f).head->fire_cursor, 1);
@@ -219,8 +217,8 @@ static void open_crowd(struct fixture *f, const char *behaviour)
     fixture_run(f, 2);
     struct state now = fixture_state(f);
     for (uint32_t i = 0; i < 2048; i++) /* or else nothing is left out */
-        assert_true(now.entities.spin_y[i] == 0.0 && now.entities.target_id[i] == 0 &&
-                    now.entities.turret[i] == 0.0f && now.entities.traverse[i] == 0.0f);
+        assert_true(now.entities.row[i].spin_y == 0.0 && now.entities.row[i].target_id == 0 &&
+                    now.entities.row[i].turret == 0.0f && now.entities.row[i].traverse == 0.0f);
 }
 
 /* As the collider would leave it, or a mover before. */
@@ -232,44 +230,44 @@ static void give(const struct fixture *f, enum news news)
     struct entities *e = &now.entities;
     switch (news) {
     case SPIN:
-        e->spin_y[SECOND_BLOCK_ROW] = 0.5;
+        e->row[SECOND_BLOCK_ROW].spin_y = 0.5;
         break;
     case TUMBLE: /* about one axis, and soon about all */
-        e->kind[SECOND_BLOCK_ROW] = fixture_kind(f, "helicopter");
-        e->y[SECOND_BLOCK_ROW] = 3000.0;
-        e->pitch[SECOND_BLOCK_ROW] = 0.4;
-        e->spin_y[SECOND_BLOCK_ROW] = 1.5;
+        e->row[SECOND_BLOCK_ROW].kind = fixture_kind(f, "helicopter");
+        e->row[SECOND_BLOCK_ROW].y = 3000.0;
+        e->row[SECOND_BLOCK_ROW].pitch = 0.4;
+        e->row[SECOND_BLOCK_ROW].spin_y = 1.5;
         break;
     case TURRET:
-        e->turret[SECOND_BLOCK_ROW] = 0.3f;
+        e->row[SECOND_BLOCK_ROW].turret = 0.3f;
         break;
     case GUN:
-        e->gun[SECOND_BLOCK_ROW] = 0.1f;
+        e->row[SECOND_BLOCK_ROW].gun = 0.1f;
         break;
     case TARGET:
-        e->target_slot[SECOND_BLOCK_ROW] = 7;
-        e->target_id[SECOND_BLOCK_ROW] = e->id[7];
-        e->traverse[SECOND_BLOCK_ROW] = 0.5f;
+        e->row[SECOND_BLOCK_ROW].target_slot = 7;
+        e->row[SECOND_BLOCK_ROW].target_id = e->row[7].id;
+        e->row[SECOND_BLOCK_ROW].traverse = 0.5f;
         break;
     case BUMP:
-        e->bumped[SECOND_BLOCK_ROW] = 1;
+        e->row[SECOND_BLOCK_ROW].bumped = 1;
         break;
     case SHOT:
-        e->threat_slot[SECOND_BLOCK_ROW] = 7;
-        e->threat_id[SECOND_BLOCK_ROW] = e->id[7];
+        e->row[SECOND_BLOCK_ROW].threat_slot = 7;
+        e->row[SECOND_BLOCK_ROW].threat_id = e->row[7].id;
         break;
     case EDGE: /* it goes over to its route's next point at once */
-        if (e->behaviour[SECOND_BLOCK_ROW] == BEHAVIOUR_HOLD)
+        if (e->row[SECOND_BLOCK_ROW].behaviour == BEHAVIOUR_HOLD)
             break;
-        e->behaviour[SECOND_BLOCK_ROW] = e->order[SECOND_BLOCK_ROW] = BEHAVIOUR_ROUTE;
-        e->order_arg[SECOND_BLOCK_ROW] = e->order_arg[2100]; /* the truck's */
-        e->x[SECOND_BLOCK_ROW] = 0.0;
-        e->heading[SECOND_BLOCK_ROW] = 1.5 * PI;
-        e->throttle[SECOND_BLOCK_ROW] = 1.0f;
+        e->row[SECOND_BLOCK_ROW].behaviour = e->row[SECOND_BLOCK_ROW].order = BEHAVIOUR_ROUTE;
+        e->row[SECOND_BLOCK_ROW].order_arg = e->row[2100].order_arg; /* the truck's */
+        e->row[SECOND_BLOCK_ROW].x = 0.0;
+        e->row[SECOND_BLOCK_ROW].heading = 1.5 * PI;
+        e->row[SECOND_BLOCK_ROW].throttle = 1.0f;
         break;
     default:
-        e->damage[SECOND_BLOCK_ROW] = DAMAGE_MED;
-        e->changed_tick[SECOND_BLOCK_ROW] = (uint32_t)now.head->tick;
+        e->row[SECOND_BLOCK_ROW].damage = DAMAGE_MED;
+        e->row[SECOND_BLOCK_ROW].changed_tick = (uint32_t)now.head->tick;
         break;
     }
     state_seal(&now, f->view.world.counts.fixed);
@@ -287,9 +285,9 @@ static void test_one_row_has_values_that_its_block_lacked(void **state)
             assert_sure_or_not_the_same(&f);
             const struct entities *m = &f.view.m.entities;
             if (news == SPIN)
-                assert_true(m->spin_y[SECOND_BLOCK_ROW] < 0.5);
+                assert_true(m->row[SECOND_BLOCK_ROW].spin_y < 0.5);
             if (news == TURRET)
-                assert_true(m->turret[SECOND_BLOCK_ROW] < 0.3f);
+                assert_true(m->row[SECOND_BLOCK_ROW].turret < 0.3f);
             fixture_run(&f, 1);
             go_on(&f);
         }
@@ -302,14 +300,14 @@ static void test_commands_reach_a_block_of_zeros(void **state)
     struct fixture f;
     (void)state;
     open_crowd(&f, "patrol");
-    uint32_t id = fixture_state(&f).entities.id[SECOND_BLOCK_ROW];
+    uint32_t id = fixture_state(&f).entities.row[SECOND_BLOCK_ROW].id;
     steps_send(&f, RING_CLIENTS,
                (struct command){.type = COMMAND_DRIVE,
                                 .source = 7,
                                 .entity = id,
                                 .value = {0.5, 0.0, 0.0, 1.0, 1.0, 0.0}});
     go_on(&f);
-    assert_true(steps_rows(&f).turret[SECOND_BLOCK_ROW] > 0.0f);
+    assert_true(steps_rows(&f).row[SECOND_BLOCK_ROW].turret > 0.0f);
     steps_send(&f, RING_CLIENTS,
                (struct command){.type = COMMAND_RELEASE, .source = 7, .entity = id});
     go_on(&f);
@@ -318,15 +316,15 @@ static void test_commands_reach_a_block_of_zeros(void **state)
     state_seal(&now, f.view.world.counts.fixed);
     steps_send(
         &f, RING_CLIENTS,
-        (struct command){.type = COMMAND_FIRE, .entity = now.entities.id[2099], .target = id});
+        (struct command){.type = COMMAND_FIRE, .entity = now.entities.row[2099].id, .target = id});
     assert_sure_or_not_the_same(&f);
     assert_int_equal(f.view.m.head->tally.fires, 1);
-    assert_int_equal(f.view.m.entities.threat_id[SECOND_BLOCK_ROW], 0); /* it has noticed */
+    assert_int_equal(f.view.m.entities.row[SECOND_BLOCK_ROW].threat_id, 0); /* it has noticed */
     go_on(&f);
     steps_send(&f, RING_CLIENTS, (struct command){.type = COMMAND_REMOVE, .entity = id});
     go_on(&f);
     now = fixture_state(&f);
-    assert_int_equal(now.entities.state[SECOND_BLOCK_ROW], ENTITY_FREE);
+    assert_int_equal(now.entities.row[SECOND_BLOCK_ROW].state, ENTITY_FREE);
     now.head->alloc_next = SECOND_BLOCK_ROW;
     state_seal(&now, f.view.world.counts.fixed);
     fixture_run(&f, 1);
@@ -336,7 +334,7 @@ static void test_commands_reach_a_block_of_zeros(void **state)
                                 .amount = BEHAVIOUR_HOLD,
                                 .value = {25000.0, 25000.0, 0.0, 0.0, 10.0}});
     assert_sure_or_not_the_same(&f);
-    assert_true(f.view.m.entities.z[SECOND_BLOCK_ROW] ==
+    assert_true(f.view.m.entities.row[SECOND_BLOCK_ROW].z ==
                 25000.0); /* it moves from the next frame */
     go_on(&f);
     fixture_close(&f);

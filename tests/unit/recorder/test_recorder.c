@@ -320,7 +320,7 @@ static void test_wrong_mark_is_reported(void **state)
     record_run(22);
     open_replay(&replay);
     begin_world(&other);
-    steps_rows(&other).x[1] += 0.5; /* the log ends a little earlier */
+    steps_rows(&other).row[1].x += 0.5; /* the log ends a little earlier */
     while (step == LOG_REPLAY_STEPPED && frame_stepper_frame(&other.stepper) < replay.known_frame)
         step = log_replay_step(&replay, &other.stepper, &error);
     assert_int_equal(step, LOG_REPLAY_MISMATCH);

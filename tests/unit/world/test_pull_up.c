@@ -34,7 +34,7 @@ static uint32_t fly(const char *kind, double from_m, double height_m, double spe
                                                 .at = {25000.0 - from_m, 100.0 + height_m, 25000.0},
                                                 .velocity = {speed_mps, up_mps, 0.0},
                                                 .heading_rad = HALF_PI});
-    steps_rows(&f).behaviour[row] = BEHAVIOUR_DRIVEN;
+    steps_rows(&f).row[row].behaviour = BEHAVIOUR_DRIVEN;
     return row;
 }
 
@@ -66,13 +66,13 @@ static void escapes(const char *kind, double from_m, double height_m, double spe
         if (word == 0 && told(row))
             word = frame;
         struct entities e = steps_rows(&f);
-        if (e.damage[row] != DAMAGE_NONE || e.state[row] != ENTITY_ACTIVE)
+        if (e.row[row].damage != DAMAGE_NONE || e.row[row].state != ENTITY_ACTIVE)
             fail_msg("the %s strikes %.1f s after the word", kind, (frame - word) / (double)HZ);
     }
     assert_true(word > 0);
     print_message("%s: the word after %.1f s\n", kind, word / (double)HZ);
     row = fly(kind, from_m, height_m, speed, up_mps);
-    for (frame = 0; frame < 60 * HZ && steps_rows(&f).damage[row] == DAMAGE_NONE; frame++)
+    for (frame = 0; frame < 60 * HZ && steps_rows(&f).row[row].damage == DAMAGE_NONE; frame++)
         steps_drive(&f, row, throttle_of(kind, speed), 0.0, stick);
     print_message("    strikes %.1f s after it\n", (frame - word) / (double)HZ);
     assert_true(frame > word + REACT && frame < word + 12 * HZ);
@@ -109,7 +109,7 @@ static void test_level_flight_and_gentle_landings_need_no_word(void **state)
         steps_drive(&f, row, 0.0, 0.0, -0.25);
         assert_false(told(row));
     }
-    assert_true(steps_rows(&f).flags[row] & ENTITY_FLAG_LANDED);
+    assert_true(steps_rows(&f).row[row].flags & ENTITY_FLAG_LANDED);
 }
 
 /* A jet that banks towards a ridge beside it, and one that banks away. */
@@ -121,12 +121,12 @@ static void test_the_present_turn_counts(void **state)
     for (int side = -1; side <= 1; side += 2) {
         uint32_t row = fly("jet", 700.0, 60.0, 200.0, 0.0);
         struct entities e = steps_rows(&f);
-        e.heading[row] = 0.0;
-        e.vx[row] = 0.0;
-        e.vz[row] = -200.0;
-        e.roll[row] = 1.3 * side;
+        e.row[row].heading = 0.0;
+        e.row[row].vx = 0.0;
+        e.row[row].vz = -200.0;
+        e.row[row].roll = 1.3 * side;
         assert_true(told(row) == (side > 0));
-        e.behaviour[row] = BEHAVIOUR_PATROL; /* an agent hears nothing */
+        e.row[row].behaviour = BEHAVIOUR_PATROL; /* an agent hears nothing */
         assert_false(told(row));
     }
 }

@@ -98,9 +98,9 @@ static void test_digest_covers_every_column_of_every_used_row(void **state)
     assert_int_equal(now.head->used, 5);
     for (uint32_t row = 0; row < now.head->used; row++) {
 #define X(type, name)                                                                              \
-    if (!every_bit_counts(&e->name[row], sizeof(type)))                                            \
+    if (!every_bit_counts(&e->row[row].name, sizeof(type)))                                        \
         fail_msg("row %u: " #name, row);
-        ENTITY_COLUMNS(X)
+        ENTITY_FIELDS(X)
 #undef X
     }
 }
@@ -111,16 +111,16 @@ static void test_digest_depends_on_where_a_value_is(void **state)
     const struct entities *e = &now.entities;
     uint64_t before = digest();
     (void)state;
-    double x = e->x[0], z = e->z[0];
-    e->x[0] = z;
-    e->z[0] = x;
+    double x = e->row[0].x, z = e->row[0].z;
+    e->row[0].x = z;
+    e->row[0].z = x;
     assert_int_not_equal(digest(), before);
-    e->x[0] = e->x[1];
-    e->z[0] = z;
-    e->x[1] = x;
+    e->row[0].x = e->row[1].x;
+    e->row[0].z = z;
+    e->row[1].x = x;
     assert_int_not_equal(digest(), before);
-    e->x[1] = e->x[0];
-    e->x[0] = x;
+    e->row[1].x = e->row[0].x;
+    e->row[0].x = x;
     assert_int_equal(digest(), before);
 }
 
@@ -128,8 +128,8 @@ static void test_rows_past_used_do_not_count(void **state)
 {
     const struct entities *e = &now.entities;
     (void)state;
-#define X(type, name) assert_true(no_bit_counts(&e->name[now.head->used], sizeof(type)));
-    ENTITY_COLUMNS(X)
+#define X(type, name) assert_true(no_bit_counts(&e->row[now.head->used].name, sizeof(type)));
+    ENTITY_FIELDS(X)
 #undef X
 }
 
@@ -255,12 +255,12 @@ static void test_checksum_covers_all_of_head_and_rows_but_itself(void **state)
     }
 #define X(type, name)                                                                              \
     for (uint32_t row = 0; row <= now.head->used; row++) {                                         \
-        unsigned char *value = (unsigned char *)&now.entities.name[row];                           \
+        unsigned char *value = (unsigned char *)&now.entities.row[row].name;                       \
         *value ^= 1;                                                                               \
         assert_int_equal(checksum() == before, row == now.head->used);                             \
         *value ^= 1;                                                                               \
     }
-    ENTITY_COLUMNS(X)
+    ENTITY_FIELDS(X)
 #undef X
 }
 

@@ -56,9 +56,9 @@ static void let_push(uint32_t count)
     struct entities e = steps_rows(&f);
     steps_kind(&f, "tank")->resistance_j = 1e12;
     for (uint32_t i = 0; i < count; i++) {
-        e.behaviour[i] = BEHAVIOUR_DRIVEN;
-        e.until_tick[i] = UINT32_MAX;
-        e.throttle[i] = 1.0f;
+        e.row[i].behaviour = BEHAVIOUR_DRIVEN;
+        e.row[i].until_tick = UINT32_MAX;
+        e.row[i].throttle = 1.0f;
     }
     fixture_forget_copies(&f);
 }
@@ -137,7 +137,7 @@ static void test_a_heap_goes_the_same_way_on_any_number_of_threads(void **state)
 
 static void set_throttle(uint32_t row, float throttle)
 {
-    steps_rows(&f).throttle[row] = throttle;
+    steps_rows(&f).row[row].throttle = throttle;
     fixture_forget_copies(&f);
 }
 
@@ -146,7 +146,7 @@ static uint32_t find_pinned(void)
 {
     const struct entities e = steps_rows(&f);
     for (uint32_t row = 0; row < RESTING_TANKS; row++) {
-        if (e.flags[row] & ENTITY_FLAG_CHASSIS && e.jolt_tick[row] == ENTITY_PINNED)
+        if (e.row[row].flags & ENTITY_FLAG_CHASSIS && e.row[row].jolt_tick == ENTITY_PINNED)
             return row;
     }
     return SLOT_NONE;
@@ -176,7 +176,7 @@ static void test_tanks_that_hold_each_other_off_their_springs_sleep(void **state
             for (uint32_t i = 0; i < RESTING_TANKS; i++)
                 set_throttle(i, i % 2 ? 1.0f : -1.0f);
             fixture_continue(&f, 60);
-            assert_true(steps_rows(&f).jolt_tick[row] != ENTITY_PINNED);
+            assert_true(steps_rows(&f).row[row].jolt_tick != ENTITY_PINNED);
         }
         assert_true(steps_deepest(&f, RESTING_TANKS) <= OVERLAP_M);
         fixture_close(&f);
@@ -202,7 +202,7 @@ static void test_the_end_of_a_contact_is_told(void **state)
     struct state now = fixture_state(&f);
     uint32_t ended = fixture_event_count(&f, EVENT_CONTACT_END); /* after a bounce */
     assert_int_equal(now.head->contact_count, 1);
-    steps_rows(&f).throttle[0] = -1.0f;
+    steps_rows(&f).row[0].throttle = -1.0f;
     fixture_forget_copies(&f);
     fixture_continue(&f, 180);
     now = fixture_state(&f);

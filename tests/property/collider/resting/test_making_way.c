@@ -85,7 +85,7 @@ static double measure_gaps(uint32_t count)
         body[i] = body_motion_standing(motion, &e, i);
     for (uint32_t i = 0; i < count; i++) {
         for (uint32_t j = i + 1; j < count; j++) {
-            double dx = e.x[j] - e.x[i], dz = e.z[j] - e.z[i];
+            double dx = e.row[j].x - e.row[i].x, dz = e.row[j].z - e.row[i].z;
             double reach = body[i].bound_m + body[j].bound_m + NEAR_M;
             gap_before[i][j] = gap[i][j];
             gap[i][j] = dx * dx + dz * dz > reach * reach
@@ -101,7 +101,7 @@ static void look(uint32_t count)
 {
     const struct entities e = steps_rows(&f);
     for (uint32_t i = 0; i < count; i++)
-        before[i] = (struct looked){e.x[i], e.z[i], steps_speed(&f, i), i};
+        before[i] = (struct looked){e.row[i].x, e.row[i].z, steps_speed(&f, i), i};
 }
 
 static uint32_t root_of(uint32_t i)
@@ -135,7 +135,7 @@ static void count_jumps(uint32_t count)
     bool parts[MOST] = {false};
     join(count, parts);
     for (uint32_t i = 0; i < count; i++) {
-        double dx = e.x[i] - before[i].x, dz = e.z[i] - before[i].z;
+        double dx = e.row[i].x - before[i].x, dz = e.row[i].z - before[i].z;
         double speed = maths_max(before[i].speed_mps, steps_speed(&f, i));
         double jump = sqrt(dx * dx + dz * dz) - speed * dt_s;
         looks++;

@@ -72,8 +72,8 @@ static void place_at_gap(uint32_t a, uint32_t b, double gap_m, double x, double 
     look();
     for (int n = 0; n < 200; n++) {
         double more = gap_m - gap_of(a, b);
-        e.x[a] += 0.5 * more * x;
-        e.z[a] += 0.5 * more * z;
+        e.row[a].x += 0.5 * more * x;
+        e.row[a].z += 0.5 * more * z;
     }
     assert_true(fabs(gap_of(a, b) - gap_m) < 1e-4);
 }
@@ -83,10 +83,10 @@ static double energy_of(uint32_t count)
     const struct entities e = steps_rows(&f);
     double energy = 0.0;
     for (uint32_t i = 0; i < count; i++) {
-        const struct kind *kind = &f.view.world.kinds[e.kind[i]];
+        const struct kind *kind = &f.view.world.kinds[e.row[i].kind];
         double speed = steps_speed(&f, i);
         energy += 0.5 * kind->mass_kg * speed * speed +
-                  0.5 * mass_properties_of(kind).moment.y * e.spin_y[i] * e.spin_y[i];
+                  0.5 * mass_properties_of(kind).moment.y * e.row[i].spin_y * e.row[i].spin_y;
     }
     return energy;
 }
@@ -149,7 +149,7 @@ static void run_at_one_place(const char *first, const char *second, double way_m
     for (uint32_t frame = 0; frame < 60; frame++) {
         fixture_continue(&f, 1);
         struct entities e = steps_rows(&f);
-        double dx = e.x[1] - e.x[0] - x, dz = e.z[1] - e.z[0] - z;
+        double dx = e.row[1].x - e.row[0].x - x, dz = e.row[1].z - e.row[0].z - z;
         way += sqrt(dx * dx + dz * dz);
         x += dx, z += dz;
     }
@@ -219,11 +219,13 @@ static void run_inside(const char *vehicle, const char *object, uint64_t *random
     look();
     for (uint32_t frame = 1; frame <= INSIDE_FRAMES; frame++) {
         struct entities e = steps_rows(&f);
-        double at_x = e.x[0], at_z = e.z[0];
+        double at_x = e.row[0].x, at_z = e.row[0].z;
         fixture_continue(&f, 1);
         e = steps_rows(&f);
-        double moved = sqrt((e.x[0] - at_x) * (e.x[0] - at_x) + (e.z[0] - at_z) * (e.z[0] - at_z));
-        double now = sqrt((e.x[0] - x) * (e.x[0] - x) + (e.z[0] - z) * (e.z[0] - z));
+        double moved = sqrt((e.row[0].x - at_x) * (e.row[0].x - at_x) +
+                            (e.row[0].z - at_z) * (e.row[0].z - at_z));
+        double now =
+            sqrt((e.row[0].x - x) * (e.row[0].x - x) + (e.row[0].z - z) * (e.row[0].z - z));
         assert_true(now >= far - 1e-6);
         far = now;
         way += moved;

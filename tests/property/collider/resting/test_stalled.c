@@ -47,9 +47,9 @@ static void put(double far_m, double angle_rad, double speed_mps)
 static void set_throttle(uint32_t row, double throttle)
 {
     struct entities e = steps_rows(&f);
-    e.behaviour[row] = BEHAVIOUR_DRIVEN;
-    e.until_tick[row] = UINT32_MAX;
-    e.throttle[row] = (float)throttle;
+    e.row[row].behaviour = BEHAVIOUR_DRIVEN;
+    e.row[row].until_tick = UINT32_MAX;
+    e.row[row].throttle = (float)throttle;
     fixture_forget_copies(&f);
 }
 
@@ -79,7 +79,7 @@ static uint32_t standing(const struct vec3 at[TANKS_MOST])
     const struct entities e = steps_rows(&f);
     uint32_t count = 0;
     for (uint32_t i = 0; i < fixture_state(&f).head->used; i++)
-        count += e.x[i] == at[i].x && e.y[i] == at[i].y && e.z[i] == at[i].z &&
+        count += e.row[i].x == at[i].x && e.row[i].y == at[i].y && e.row[i].z == at[i].z &&
                  steps_speed(&f, i) == 0.0;
     return count;
 }

@@ -49,17 +49,17 @@ static void draw_row(uint64_t *random, uint32_t row)
                                                  fixture_uniform(random, -reach, reach),
                                                  fixture_uniform(random, -reach, reach)});
     uint64_t now = fixture_random(random) % 8;
-    w->state[row] = n->state[row] = ENTITY_ACTIVE;
-    n->id[row] = w->id[row] = row + 1;
+    w->row[row].state = n->row[row].state = ENTITY_ACTIVE;
+    n->row[row].id = w->row[row].id = row + 1;
     entities_set_position(w, row, was);
     entities_set_position(n, row, now < 3 ? was : is);
-    w->roll[row] = n->roll[row] = 0.0;
+    w->row[row].roll = n->row[row].roll = 0.0;
     if (now == 1)
-        n->roll[row] = 0.1;
+        n->row[row].roll = 0.1;
     else if (now == 4)
-        n->id[row] += 5000;
+        n->row[row].id += 5000;
     else if (now == 5)
-        n->state[row] = row % 5 == 2 ? ENTITY_WRECK : ENTITY_FREE;
+        n->row[row].state = row % 5 == 2 ? ENTITY_WRECK : ENTITY_FREE;
 }
 
 static int by_bodies(const void *p, const void *q)
@@ -94,11 +94,11 @@ static uint32_t check_fliers(const struct method_input *input)
     const struct entities *e = &next->entities;
     uint32_t left_out = 0;
     for (uint32_t row = 0; row < ROWS; row++) {
-        bool round = e->behaviour[row] == BEHAVIOUR_FLIGHT;
-        bool air = input->world->kinds[e->kind[row]].domain == DOMAIN_AIR;
+        bool round = e->row[row].behaviour == BEHAVIOUR_FLIGHT;
+        bool air = input->world->kinds[e->row[row].kind].domain == DOMAIN_AIR;
         bool listed = ends(&broad->sweeper[0].fliers, row);
         double toi;
-        if (e->state[row] != ENTITY_ACTIVE || !(round || air)) {
+        if (e->row[row].state != ENTITY_ACTIVE || !(round || air)) {
             assert_false(listed);
             continue;
         }
@@ -137,7 +137,7 @@ static void test_columns_give_the_same_as_computed_paths(void **state)
         assert_int_equal(take_pairs(found), count);
         assert_memory_equal(found, expected, count * sizeof *found);
         for (uint32_t row = 0; row < ROWS; row++) {
-            if (next->entities.state[row] != ENTITY_FREE)
+            if (next->entities.row[row].state != ENTITY_FREE)
                 assert_memory_equal(&broad->box[row], &box[row], sizeof *box);
             if (motion->computed[row])
                 assert_true(motion->path[row].at.x == way[row].at.x &&

@@ -80,11 +80,11 @@ static void test_a_round_and_its_shooter_are_apart(void **state)
     uint32_t round = put("shell", (struct vec3){25001, 100, 25000}, (struct vec3){20, 0, 0});
     uint32_t second = put("shell", (struct vec3){25002, 100, 25000}, (struct vec3){20, 0, 0});
     (void)state;
-    e.owner_slot[round] = e.owner_slot[second] = tank;
-    e.owner_id[round] = e.owner_id[second] = e.id[tank];
+    e.row[round].owner_slot = e.row[second].owner_slot = tank;
+    e.row[round].owner_id = e.row[second].owner_id = e.row[tank].id;
     assert_false(pairs(tank, round));
     assert_false(pairs(round, second)); /* two of one shooter */
-    e.owner_id[second] = 77;            /* the row's owner before */
+    e.row[second].owner_id = 77;        /* the row's owner before */
     assert_true(pairs(tank, second));
     assert_true(pairs(round, second));
 }

@@ -42,7 +42,7 @@ static uint32_t put(struct fixture_entity entity, enum behaviour behaviour)
     for (int i = 0; i < 2; i++) {
         row = fixture_put(both[i], entity);
         struct entities e = steps_rows(both[i]);
-        e.behaviour[row] = e.order[row] = (uint8_t)behaviour;
+        e.row[row].behaviour = e.row[row].order = (uint8_t)behaviour;
     }
     return row;
 }
@@ -91,11 +91,12 @@ static void test_a_vehicle_runs_into_a_row_that_rests(void **state)
     uint32_t tank = put(entity, BEHAVIOUR_HOLD), struck = SIDE;
     assert_int_equal(tank, HERD);
     begin();
-    assert_true(is_kept(struck) && !is_kept(tank) && steps_rows(&keeps).x[tank] < WEST_M - 20.0);
-    double before = steps_rows(&keeps).x[struck];
+    assert_true(is_kept(struck) && !is_kept(tank) &&
+                steps_rows(&keeps).row[tank].x < WEST_M - 20.0);
+    double before = steps_rows(&keeps).row[struck].x;
     run(180);
     assert_true(fixture_state(&keeps).head->tally.collisions > 0);
-    assert_true(steps_rows(&keeps).x[struck] > before + 0.1);
+    assert_true(steps_rows(&keeps).row[struck].x > before + 0.1);
 }
 
 static void test_a_row_that_is_struck_is_kept_no_longer(void **state)
@@ -114,7 +115,7 @@ static void test_a_row_that_is_struck_is_kept_no_longer(void **state)
     run(900);                                            /* the tank leans on it */
     assert_false(is_kept(SIDE));
     for (int i = 0; i < 2; i++)
-        steps_rows(both[i]).state[tank] = ENTITY_FREE;
+        steps_rows(both[i]).row[tank].state = ENTITY_FREE;
     begin();
     run(1300); /* a new index is worth it then */
     assert_true(is_kept(SIDE));
@@ -134,7 +135,7 @@ static void test_a_charge_finds_a_row_that_rests(void **state)
                                     .kind = fixture_kind(both[i], "artillery"),
                                     .value = {WEST_M + 3.0 * GAP_M + 4.0, WEST_M + GAP_M}});
     run(300);
-    assert_true(steps_rows(&keeps).damage[SIDE + 3] > DAMAGE_NONE);
+    assert_true(steps_rows(&keeps).row[SIDE + 3].damage > DAMAGE_NONE);
 }
 
 /* A new crater may lift the ground under an aircraft. */
@@ -192,7 +193,7 @@ static void test_responses_note_the_rows_that_they_write(void **state)
     put_herd("truck");
     begin();
     assert_true(is_kept(SIDE));
-    table_note(&context.writer, SIDE, COLUMN_BIT(x));
+    table_note(&context.writer, SIDE);
     run(1);
     assert_true(!is_kept(SIDE) && is_kept(SIDE + 1));
 }

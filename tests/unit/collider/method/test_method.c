@@ -96,7 +96,7 @@ static void test_a_free_row_meets_nothing(void **state)
     (void)state;
     for (int i = 0; i < 3; i++)
         small_world_row(&w, SMALL_TANK, (struct vec3){25000, 0, 25000}, (struct vec3){1, 0, 0});
-    w.e.state[0] = ENTITY_FREE;
+    w.e.row[0].state = ENTITY_FREE;
     small_world_tree(&w, (struct vec3){25000, 0, 25000}, 2.0);
     assert_swept(3); /* the two with each other, and each with the tree */
     pair_search_run(method_hopcroft_pairs);
@@ -111,8 +111,8 @@ static void test_a_round_and_its_shooter_are_apart(void **state)
     uint32_t round =
         small_world_row(&w, SMALL_ROUND, (struct vec3){25001, 0, 25000}, (struct vec3){20, 0, 0});
     assert_swept(1);
-    w.e.owner_slot[round] = tank;
-    w.e.owner_id[round] = w.e.id[tank];
+    w.e.row[round].owner_slot = tank;
+    w.e.row[round].owner_id = w.e.row[tank].id;
     assert_swept(0);
 }
 
@@ -241,7 +241,7 @@ static void test_row_42_mps_checks_nothing_but_platforms(void **state)
     w.path[1].along.x = 0.0; /* no further body comes near */
     assert_int_equal(pair_search_run(method_mps_pairs), 0);
     w.path[1].along.x = 1.0;
-    w.e.state[2] = ENTITY_FREE;
+    w.e.row[2].state = ENTITY_FREE;
     assert_int_equal(pair_search_run(method_mps_pairs), 0);
 }
 

@@ -99,9 +99,9 @@ static void test_row_37_a_border_object_is_found_late(void **state)
         struct vec3 at = path_at(&w.path[0], 1.0);
         small_world_move(&w, 0, at, w.path[0].along);
         if (touched == 0.0 && pair_search_run(method_brute_pairs) == 1)
-            touched = w.e.x[0];
+            touched = w.e.row[0].x;
         if (pair_search_run(method_npsnet2_pairs) == 1)
-            found = w.e.x[0];
+            found = w.e.row[0].x;
     }
     /* 18 m late: when its centre is over the border. */
     assert_true(fabs(touched - (BORDER_M + 5.0 - 23.0)) < 2.0);
@@ -147,11 +147,11 @@ static void test_a_munition_is_a_moving_object_and_apart_from_its_shooter(void *
     uint32_t round =
         small_world_row(&w, SMALL_ROUND, (struct vec3){24999, 0, 25000}, (struct vec3){2, 0, 0});
     assert_int_equal(pair_search_run(method_npsnet2_pairs), 1);
-    w.e.owner_slot[round] = tank;
-    w.e.owner_id[round] = w.e.id[tank];
+    w.e.row[round].owner_slot = tank;
+    w.e.row[round].owner_id = w.e.row[tank].id;
     assert_int_equal(pair_search_run(method_npsnet2_pairs), 0);
-    w.e.owner_id[round] = 0;
-    w.e.state[tank] = ENTITY_FREE;
+    w.e.row[round].owner_id = 0;
+    w.e.row[tank].state = ENTITY_FREE;
     assert_int_equal(pair_search_run(method_npsnet2_pairs), 0);
 }
 
@@ -174,7 +174,7 @@ static void test_row_19_or_keeps_a_cross_of_the_map(void **state)
     assert_int_equal(level1.kept[NEARNESS_OR], middle * (middle - 1) / 2         /* the middle */
                                                    + 100 * 99 / 2 + 100 * middle /* along X */
                                                    + 40 * 39 / 2 + 40 * middle); /* along Z */
-    w.e.state[0] = ENTITY_FREE;
+    w.e.row[0].state = ENTITY_FREE;
     assert_int_equal(method_npsnet2_level1(&input).pairs, 145 * 144 / 2);
 }
 
@@ -222,7 +222,7 @@ static void test_row_24_table_2(void **state)
                                         .velocity = {rows[i].kph / 3.6, 0, 0}};
         uint32_t row = fixture_put(&f, entity);
         fixture_run(&f, 1);
-        double metres = steps_rows(&f).x[row] - x;
+        double metres = steps_rows(&f).row[row].x - x;
         assert_int_equal((int)(metres * rows[i].digits), rows[i].printed);
     }
     fixture_close(&f);
@@ -366,7 +366,7 @@ static void test_row_21_an_object_is_hit_as_it_is_turned(void **state)
     small_world_row(&w, SMALL_TANK, (struct vec3){25000, 0, 25000}, still);
     small_world_row(&w, SMALL_CAR, (struct vec3){25001.25, 0, 25000}, eastward);
     assert_int_equal(pair_search_run(method_npsnet2_pairs), 0); /* 2.25 m */
-    w.e.heading[0] = w.e.heading[1] = 0.25 * PI;                /* corner to corner: 2.83 m reach */
+    w.e.row[0].heading = w.e.row[1].heading = 0.25 * PI;        /* corner to corner: 2.83 m reach */
     assert_int_equal(pair_search_run(method_npsnet2_pairs), 1);
 }
 
@@ -378,7 +378,7 @@ static void test_row_21_a_contact_beside_the_line_of_centres_is_missed(void **st
     small_world_tree(&w, (struct vec3){25013.3, 0, 25011.9}, 4.0);
     small_world_index(&w);
     small_world_row(&w, SMALL_CAR, (struct vec3){25009, 0, 25010}, eastward);
-    w.e.heading[0] = 0.25 * PI;
+    w.e.row[0].heading = 0.25 * PI;
     assert_int_equal(pair_search_run(method_npsnet2_pairs), 0);
     w.fixed[0].z = 25010.0; /* the corner is on the line now */
     assert_int_equal(pair_search_run(method_npsnet2_pairs), 1);

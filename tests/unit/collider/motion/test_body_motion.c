@@ -52,10 +52,10 @@ static void begin(void)
     next = &f.view.w[1];
     steps_respond(&f, &context);
     steps_respond_end(&context);
-    next->entities.x[0] += 6.0;
-    next->entities.heading[0] += 0.1;
-    next->entities.x[ROWS - 1] += 100.0;
-    next->entities.id[ROWS - 1]++;
+    next->entities.row[0].x += 6.0;
+    next->entities.row[0].heading += 0.1;
+    next->entities.row[ROWS - 1].x += 100.0;
+    next->entities.row[ROWS - 1].id++;
     body_motion_begin(motion, &f.view.w[0], next, NULL);
     for (uint32_t i = 0; i < ROWS; i++)
         body_motion_compute(motion, i);
@@ -86,7 +86,7 @@ static void test_who_is_new_has_not_moved(void **state)
     begin();
     assert_false(body_motion_old(motion, ROWS - 1));
     assert_true(pair_filter_rests(&motion->path[ROWS - 1]));
-    assert_true(motion->path[ROWS - 1].at.x == next->entities.x[ROWS - 1]);
+    assert_true(motion->path[ROWS - 1].at.x == next->entities.row[ROWS - 1].x);
 }
 
 static bool same_turn(struct quat p, struct quat q)
@@ -103,10 +103,10 @@ static void test_a_pose_that_is_kept_follows_its_angles(void **state)
     body_motion_note_poses(motion, 0);
     struct rotation_path known = body_motion_rotation(motion, 0);
     assert_true(same_turn(known.from, unknown.from) && same_turn(known.to, unknown.to));
-    next->entities.heading[0] += 0.2;
-    next->entities.roll[0] -= 0.1;
-    struct quat turned =
-        rotation_of(next->entities.heading[0], next->entities.pitch[0], next->entities.roll[0]);
+    next->entities.row[0].heading += 0.2;
+    next->entities.row[0].roll -= 0.1;
+    struct quat turned = rotation_of(next->entities.row[0].heading, next->entities.row[0].pitch,
+                                     next->entities.row[0].roll);
     assert_true(same_turn(body_motion_rotation(motion, 0).to, turned));
     assert_true(same_turn(body_motion_standing(motion, &next->entities, 0).to, turned));
     assert_true(same_turn(body_motion_rotation(motion, 0).from, unknown.from));
@@ -149,14 +149,14 @@ static void test_a_path_that_begins_at_the_end_has_its_last_rotation(void **stat
 static void set_spin(uint32_t row, struct vec3 spin)
 {
     struct entities *w = &f.view.w[0].entities;
-    w->spin_x[row] = spin.x;
-    w->spin_y[row] = spin.y;
-    w->spin_z[row] = spin.z;
+    w->row[row].spin_x = spin.x;
+    w->row[row].spin_y = spin.y;
+    w->row[row].spin_z = spin.z;
 }
 
 static void set_pose(const struct entities *e, uint32_t row, struct quat turned)
 {
-    rotation_angles(turned, &e->heading[row], &e->pitch[row], &e->roll[row]);
+    rotation_angles(turned, &e->row[row].heading, &e->row[row].pitch, &e->row[row].roll);
 }
 
 /* An aircraft that the mover turned by its spin takes its real path, however often it turns. */
@@ -168,7 +168,7 @@ static void test_who_spins_freely_takes_its_real_path(void **state)
     struct vec3 moment = mass_properties_of(steps_kind(&f, "jet")).moment;
     for (int n = 0; n < 2; n++) {
         begin();
-        struct quat from = rotation_of(next->entities.heading[5], 0.0, 0.0), to = from;
+        struct quat from = rotation_of(next->entities.row[5].heading, 0.0, 0.0), to = from;
         struct vec3 spin = spins[n];
         set_spin(5, spins[n]);
         free_rotation_turn(moment, &to, &spin, dt_s);
@@ -195,13 +195,13 @@ static void test_a_yaw_of_one_and_a_half_turns_is_swept(void **state)
     uint32_t row =
         fixture_put(&f, (struct fixture_entity){.kind = "tank", .at = {25000, 100, 9000}});
     begin();
-    double heading = next->entities.heading[row];
+    double heading = next->entities.row[row].heading;
     set_spin(row, (struct vec3){0.0, -1.5 * TWO_PI / dt_s, 0.0});
-    next->entities.heading[row] = maths_wrap_turn(heading + 0.01 + 1.5 * TWO_PI);
+    next->entities.row[row].heading = maths_wrap_turn(heading + 0.01 + 1.5 * TWO_PI);
     double seen = heading_of(body_motion_orientation(motion, row, 1.0 / 3.0));
     assert_true(fabs(maths_wrap_half(seen - heading - PI)) < 0.01);
     seen = heading_of(body_motion_orientation(motion, row, 1.0));
-    assert_true(fabs(maths_wrap_half(seen - next->entities.heading[row])) < 1e-9);
+    assert_true(fabs(maths_wrap_half(seen - next->entities.row[row].heading)) < 1e-9);
     set_spin(row, (struct vec3){0.0, 0.0, 0.0});
 }
 
@@ -235,9 +235,9 @@ static void test_a_stretch_in_place_rests_only_if_it_does_not_turn(void **state)
     begin();
     motion->models = true; /* a sphere that turns stays where it is */
     for (uint32_t row = 1; row < 3; row++) {
-        next->entities.cruise_tick[row] = (uint32_t)next->head->tick + 20;
-        next->entities.cruise_rps[row] = row == 1 ? 0.1 : 0.0;
-        next->entities.heading[row] += row == 1 ? 0.03 : 0.0;
+        next->entities.row[row].cruise_tick = (uint32_t)next->head->tick + 20;
+        next->entities.row[row].cruise_rps = row == 1 ? 0.1 : 0.0;
+        next->entities.row[row].heading += row == 1 ? 0.03 : 0.0;
         entities_set_velocity(&next->entities, row, (struct vec3){0.0, 0.0, 0.0});
     }
     struct path turns = body_motion_stretch(motion, 1), stands = body_motion_stretch(motion, 2);
@@ -254,10 +254,10 @@ static void random_stretch(uint64_t *seed, uint32_t row, double turn_rad, double
     double gain = fixture_uniform(seed, -gain_mps, gain_mps);
     double mps = maths_max(rest_mps + maths_max(gain, 0.0), 0.0);
     maths_sincos(heading, &sine, &cosine);
-    e->heading[row] = heading;
-    e->cruise_rps[row] = fixture_uniform(seed, -turn_rad, turn_rad) / 0.5;
-    e->cruise_mps2[row] = gain / 0.5;
-    e->cruise_climb_mps2[row] = (float)fixture_uniform(seed, -6.0, 6.0);
+    e->row[row].heading = heading;
+    e->row[row].cruise_rps = fixture_uniform(seed, -turn_rad, turn_rad) / 0.5;
+    e->row[row].cruise_mps2 = gain / 0.5;
+    e->row[row].cruise_climb_mps2 = (float)fixture_uniform(seed, -6.0, 6.0);
     entities_set_velocity(
         e, row, (struct vec3){mps * sine, fixture_uniform(seed, -5.0, 5.0), -mps * cosine});
 }
@@ -286,7 +286,7 @@ static void test_what_is_around_a_stretch_only_shrinks(void **state)
         struct path before = {0};
         random_stretch(&seed, row, n % 2 ? 0.6 : 0.3, n % 2 ? 1.5 : 3.0);
         for (uint32_t left = frames; left > 0; left--) {
-            next->entities.cruise_tick[row] = (uint32_t)next->head->tick - 1 + left;
+            next->entities.row[row].cruise_tick = (uint32_t)next->head->tick - 1 + left;
             struct path around = body_motion_stretch(motion, row);
             struct body_line line = body_motion_line(motion, row);
             struct path at = {.at = line.from};
@@ -313,7 +313,7 @@ static double corner_off(uint32_t row, struct vec3 at, struct quat turn,
                          const struct body_line *line)
 {
     const struct world *world = &f.view.world;
-    const struct hull *hull = &world->hulls[world->kinds[next->entities.kind[row]].outer_hull];
+    const struct hull *hull = &world->hulls[world->kinds[next->entities.row[row].kind].outer_hull];
     const struct mat3 matrix = rotation_matrix(turn);
     double off_m = 0.0;
     for (uint32_t v = 0; v < hull->vertex_count; v++) {
@@ -325,7 +325,7 @@ static double corner_off(uint32_t row, struct vec3 at, struct quat turn,
 
 static double reach_of(uint32_t row)
 {
-    return f.view.world.kinds[next->entities.kind[row]].reach_m + 0.01;
+    return f.view.world.kinds[next->entities.row[row].kind].reach_m + 0.01;
 }
 
 static void check_shrinks(uint32_t row, uint64_t *seed, uint32_t frames)
@@ -333,8 +333,8 @@ static void check_shrinks(uint32_t row, uint64_t *seed, uint32_t frames)
     struct body_line before = {0};
     const double dt_s = world_dt_s(&f.view.world), reach_m = reach_of(row);
     for (uint32_t left = frames; left > 0; left--) {
-        next->entities.cruise_tick[row] = (uint32_t)next->head->tick - 1 + left;
-        uint64_t end = next->entities.cruise_tick[row];
+        next->entities.row[row].cruise_tick = (uint32_t)next->head->tick - 1 + left;
+        uint64_t end = next->entities.row[row].cruise_tick;
         struct body_line line = body_motion_line_around(motion, row, end, reach_m);
         struct body_line half = body_motion_line_around(motion, row, end - left / 2, reach_m);
         struct vec3 at = cruise_position(&next->entities, row, end - left, dt_s);
@@ -366,17 +366,17 @@ static void test_what_is_around_a_vehicle_only_shrinks(void **state)
         uint32_t row = fixture_put(
             &f, (struct fixture_entity){.kind = kinds[k], .at = {25000.0, 100.0, 26000.0}});
         begin();
-        const struct body_axis *axis = &motion->axis[next->entities.kind[row]];
+        const struct body_axis *axis = &motion->axis[next->entities.row[row].kind];
         assert_true(axis->beside_m < reach_of(row));
         assert_true(maths_max(axis->ahead_m, axis->behind_m) + axis->beside_m <
                     1.6 * reach_of(row));
         for (int n = 0; n < 600; n++) {
             const double long_s = n % 2 ? CRUISE_S : CRUISE_LONG_S, sign = n % 3 ? 1.0 : -1.0;
             random_stretch(&seed, row, 0.6, 1.5);
-            next->entities.cruise_rps[row] *= CRUISE_S / long_s;
-            next->entities.cruise_mps2[row] *= sign * CRUISE_S / long_s;
-            next->entities.vx[row] *= sign;
-            next->entities.vz[row] *= sign;
+            next->entities.row[row].cruise_rps *= CRUISE_S / long_s;
+            next->entities.row[row].cruise_mps2 *= sign * CRUISE_S / long_s;
+            next->entities.row[row].vx *= sign;
+            next->entities.row[row].vz *= sign;
             check_shrinks(row, &seed, (uint32_t)(long_s / world_dt_s(&f.view.world) + 0.5));
         }
     }
@@ -390,9 +390,9 @@ struct stance {
 static void put_stance(const struct entities *e, uint32_t row, struct stance stance)
 {
     entities_set_position(e, row, stance.at);
-    e->heading[row] = stance.heading;
-    e->pitch[row] = stance.pitch;
-    e->roll[row] = stance.roll;
+    e->row[row].heading = stance.heading;
+    e->row[row].pitch = stance.pitch;
+    e->row[row].roll = stance.roll;
 }
 
 /* Returns a pose that a vehicle may have a frame later: it drives ahead or backwards, slides, turns
@@ -469,10 +469,10 @@ static void test_what_turns_has_a_wide_line(void **state)
     assert_true(body_motion_frame_line(motion, row, reach_m).around_m == reach_m);
     put_stance(before, row, level);
     put_stance(&next->entities, row, level);
-    before->spin_y[row] = 40.0;
+    before->row[row].spin_y = 40.0;
     assert_true(body_motion_frame_line(motion, row, reach_m).around_m == reach_m);
-    before->spin_y[row] = 0.0;
-    next->entities.turret[row] = 0.1f;
+    before->row[row].spin_y = 0.0;
+    next->entities.row[row].turret = 0.1f;
     assert_true(body_motion_frame_line(motion, row, reach_m).around_m == reach_m);
     assert_true(body_motion_standing_line(motion, row, reach_m).around_m == reach_m);
 }
@@ -487,9 +487,9 @@ static void test_a_line_without_length_is_no_wider(void **state)
         fixture_put(&f, (struct fixture_entity){.kind = "tank", .at = {25000.0, 100.0, 26000.0}});
     begin();
     const uint64_t end = next->head->tick + 20;
-    const double reach_m = f.view.world.kinds[next->entities.kind[row]].reach_m + 0.01;
-    next->entities.heading[row] = heading;
-    next->entities.cruise_tick[row] = (uint32_t)end;
+    const double reach_m = f.view.world.kinds[next->entities.row[row].kind].reach_m + 0.01;
+    next->entities.row[row].heading = heading;
+    next->entities.row[row].cruise_tick = (uint32_t)end;
     struct body_line stands = body_motion_line_around(motion, row, end, reach_m);
     entities_set_velocity(&next->entities, row,
                           (struct vec3){1e-3 * sin(heading), 0.0, -1e-3 * cos(heading)});

@@ -39,16 +39,16 @@ static uint32_t put(const char *kind, enum entity_state state, double faster_mps
     uint32_t row = fixture_put(&f, (struct fixture_entity){.kind = kind,
                                                            .at = {25000.0, 900.0, 25000.0},
                                                            .velocity = {40.0, 3.0, 0.0}});
-    steps_rows(&f).state[row] = (uint8_t)state;
+    steps_rows(&f).row[row].state = (uint8_t)state;
     steps_respond(&f, &context);
     struct entities n = context.next->entities;
-    const struct mat3 axes = rotation_matrix(rotation_of(n.heading[row], 0.0, 0.0));
+    const struct mat3 axes = rotation_matrix(rotation_of(n.row[row].heading, 0.0, 0.0));
     if (state == ENTITY_WRECK)
         entities_set_velocity(&n, row,
                               wreck_drag_slow(steps_kind(&f, kind), &axes,
                                               entities_velocity(&n, row),
                                               world_dt_s(&f.view.world)));
-    n.vy[row] -= faster_mps;
+    n.row[row].vy -= faster_mps;
     return row;
 }
 
@@ -62,7 +62,7 @@ static void test_the_rest_of_the_fall_is_left(void **state)
     (void)state;
     uint32_t row = put("helicopter", ENTITY_WRECK, FALL);
     assert_true(fabs(left(row, 0.0) - FALL) < 1e-12);
-    context.next->entities.vx[row] = -7.0; /* by an impact: it falls on */
+    context.next->entities.row[row].vx = -7.0; /* by an impact: it falls on */
     assert_true(fabs(left(row, 0.25) - 0.75 * FALL) < 1e-12);
     assert_true(left(row, 1.0) == 0.0);
     assert_true(free_fall_unearned_mps(context.motion, row, 0.25) == 0.0);
@@ -83,7 +83,7 @@ static void test_who_becomes_a_wreck_has_not_fallen_yet(void **state)
 {
     (void)state;
     uint32_t row = put("helicopter", ENTITY_ACTIVE, FALL);
-    context.next->entities.state[row] = ENTITY_WRECK;
+    context.next->entities.row[row].state = ENTITY_WRECK;
     assert_true(left(row, 0.0) == 0.0);
 }
 

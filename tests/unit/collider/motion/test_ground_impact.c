@@ -16,9 +16,10 @@ static double clearance(uint32_t row)
 {
     struct entities e = steps_rows(&f);
     struct body_points points;
-    body_points_of(&f.view.world, e.kind[row], &points);
-    return body_points_clearance(&f.view.world, NULL, &points, entities_position(&e, row),
-                                 rotation_of(e.heading[row], e.pitch[row], e.roll[row]));
+    body_points_of(&f.view.world, e.row[row].kind, &points);
+    return body_points_clearance(
+        &f.view.world, NULL, &points, entities_position(&e, row),
+        rotation_of(e.row[row].heading, e.row[row].pitch, e.row[row].roll));
 }
 
 static uint32_t put(double height, struct vec3 velocity, double pitch)
@@ -26,7 +27,7 @@ static uint32_t put(double height, struct vec3 velocity, double pitch)
     uint32_t row = fixture_put(&f, (struct fixture_entity){.kind = "jet",
                                                            .at = {25000.0, 100.0 + height, 25000.0},
                                                            .velocity = velocity});
-    steps_rows(&f).pitch[row] = pitch;
+    steps_rows(&f).row[row].pitch = pitch;
     return row;
 }
 
@@ -35,14 +36,14 @@ static void dive(const char *scenario)
     fixture_open(&f, scenario);
     uint32_t row = put(60.0, (struct vec3){60.0, -90.0, 0.0}, -0.98);
     uint32_t frames = 0;
-    for (; steps_rows(&f).state[row] == ENTITY_ACTIVE && frames < 120; frames++) {
+    for (; steps_rows(&f).row[row].state == ENTITY_ACTIVE && frames < 120; frames++) {
         assert_true(clearance(row) > 0.0);
         fixture_run(&f, 1);
     }
     struct entities e = steps_rows(&f);
-    assert_int_equal(e.state[row], ENTITY_WRECK);
-    assert_true(fabs(clearance(row)) < 1e-6 && e.y[row] > 106.0);
-    assert_true(e.pitch[row] == -0.98 && e.vx[row] == 60.0 && e.vy[row] == -90.0);
+    assert_int_equal(e.row[row].state, ENTITY_WRECK);
+    assert_true(fabs(clearance(row)) < 1e-6 && e.row[row].y > 106.0);
+    assert_true(e.row[row].pitch == -0.98 && e.row[row].vx == 60.0 && e.row[row].vy == -90.0);
     assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 1);
     fixture_close(&f);
 }
@@ -65,12 +66,12 @@ static void test_an_aircraft_low_over_the_ground_does_not(void **state)
     (void)state;
     fixture_open(&f, "collision = { shape = \"model\"; };");
     uint32_t row = put(0.0, (struct vec3){80.0, 0.0, 0.0}, 0.0);
-    steps_rows(&f).y[row] += 0.1 - clearance(row);
+    steps_rows(&f).row[row].y += 0.1 - clearance(row);
     fixture_run(&f, 30);
-    assert_int_equal(steps_rows(&f).state[row], ENTITY_ACTIVE);
-    steps_rows(&f).y[row] -= 0.2;
+    assert_int_equal(steps_rows(&f).row[row].state, ENTITY_ACTIVE);
+    steps_rows(&f).row[row].y -= 0.2;
     fixture_run(&f, 1);
-    assert_int_equal(steps_rows(&f).state[row], ENTITY_WRECK);
+    assert_int_equal(steps_rows(&f).row[row].state, ENTITY_WRECK);
     fixture_close(&f);
 }
 

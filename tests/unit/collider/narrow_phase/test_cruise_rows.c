@@ -57,16 +57,16 @@ static void make_cruise(uint32_t row, struct vec3 to, double heading_rad, double
     entities_set_position(e, row, to);
     entities_set_velocity(e, row,
                           (struct vec3){MPS * sin(heading_rad), 0.0, -MPS * cos(heading_rad)});
-    e->heading[row] = heading_rad;
-    e->cruise_rps[row] = turns;
-    e->cruise_mps2[row] = gains;
-    e->cruise_tick[row] = (uint32_t)context.next->head->tick + WHOLE;
+    e->row[row].heading = heading_rad;
+    e->row[row].cruise_rps = turns;
+    e->row[row].cruise_mps2 = gains;
+    e->row[row].cruise_tick = (uint32_t)context.next->head->tick + WHOLE;
 }
 
 /* Returns how many frames of its stretch a row has left. */
 static uint32_t left_of(uint32_t row)
 {
-    const uint32_t end = context.next->entities.cruise_tick[row];
+    const uint32_t end = context.next->entities.row[row].cruise_tick;
     const uint32_t tick = (uint32_t)context.next->head->tick;
     return end > tick ? end - tick : 0;
 }
@@ -126,7 +126,7 @@ static void test_a_stretch_goes_on_for_as_long_as_it_may(void **state)
     for (uint32_t more = found; more <= WHOLE; more++) { /* the same way, but ended so late */
         const double back_m = MPS * (double)(WHOLE - more) / 60.0;
         put_across(4.0 + back_m, 0.0, 0.0);
-        context.next->entities.cruise_tick[truck] -= WHOLE - more;
+        context.next->entities.row[truck].cruise_tick -= WHOLE - more;
         (void)take_pair();
         if (left_of(truck) == more)
             frames = more;
@@ -172,7 +172,7 @@ static void test_two_that_stay_are_no_pair(void **state)
 static void hold(uint32_t row)
 {
     const struct path stretch = body_motion_stretch(context.motion, row);
-    const struct kind *kind = &f.view.world.kinds[context.next->entities.kind[row]];
+    const struct kind *kind = &f.view.world.kinds[context.next->entities.row[row].kind];
     const struct path_box box =
         pair_filter_path_box(&stretch, pair_filter_margin(&f.view.world, kind));
     cruise_index_add(&f.stepper.collider.broad.cruise, row, &box);
@@ -210,10 +210,10 @@ static void put_beside(double east_m, double heading_rad)
     const double way_m = 0.2;
     make_cruise(tank, (struct vec3){25000.0, 0.0, 25000.0}, 0.0, 0.0, 0.0);
     entities_set_position(e, truck, (struct vec3){25000.0 + east_m, 0.0, 25005.0});
-    e->heading[truck] = heading_rad;
+    e->row[truck].heading = heading_rad;
     entities_copy(before, e, truck, 1);
-    before->x[truck] -= way_m * sin(heading_rad);
-    before->z[truck] += way_m * cos(heading_rad);
+    before->row[truck].x -= way_m * sin(heading_rad);
+    before->row[truck].z += way_m * cos(heading_rad);
 }
 
 /* What moves by a frame is as narrow as what cruises, but not when it heads for it, turns its body
@@ -245,10 +245,10 @@ static void test_what_was_written_ends_what_it_is_in_the_way_of(void **state)
     (void)state;
     put_beside(5.8, 0.0);
     hold(tank);
-    table_note(&context.writer, truck, COLUMN_BIT(x));
+    table_note(&context.writer, truck);
     meet_written();
     assert_int_equal(left_of(tank), WHOLE);
-    context.next->entities.x[truck] -= 0.6;
+    context.next->entities.row[truck].x -= 0.6;
     meet_written();
     assert_int_equal(left_of(tank), 0);
 }

@@ -46,7 +46,7 @@ static struct vec3 velocity_of(uint32_t row)
 static struct vec3 spin_of(uint32_t row)
 {
     const struct entities *e = &context.next->entities;
-    return (struct vec3){e->spin_x[row], e->spin_y[row], e->spin_z[row]};
+    return (struct vec3){e->row[row].spin_x, e->row[row].spin_y, e->row[row].spin_z};
 }
 
 static bool near(double value, double right, double slack)
@@ -101,9 +101,10 @@ static void test_the_ground_holds_a_truck_level(void **state)
     struct vec3 v = velocity_of(row), w = spin_of(row);
     assert_true(v.x == 0.0 && v.y == 0.0 && near(v.z, -4000.0 / mass, 1e-12));
     assert_true(w.x == 0.0 && w.z == 0.0 && w.y > 0.0); /* its front goes north: left */
-    assert_true(context.next->entities.y[row] == 100.0);
+    assert_true(context.next->entities.row[row].y == 100.0);
     /* Half a frame is left, at its new speed. */
-    assert_true(near(context.next->entities.z[row], 25000.0 - 0.5 * 4000.0 / mass / 60.0, 1e-9));
+    assert_true(
+        near(context.next->entities.row[row].z, 25000.0 - 0.5 * 4000.0 / mass / 60.0, 1e-9));
 }
 
 static void test_a_slowed_vehicle_keeps_to_its_slope(void **state)

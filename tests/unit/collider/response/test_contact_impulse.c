@@ -62,17 +62,17 @@ static void test_a_head_on_impact_follows_newton(void **state)
     ram(&tank, &jeep);
     struct entities e = steps_rows(&f);
     /* Common speed 6; the jeep leaves at 6 + e * 6, the tank at 6 - e * 2. */
-    assert_true(fabs(e.vx[tank] - 5.0) < 1e-9 && fabs(e.vx[jeep] - 9.0) < 1e-9);
-    assert_true(e.vz[tank] == 0.0 && e.vz[jeep] == 0.0);
+    assert_true(fabs(e.row[tank].vx - 5.0) < 1e-9 && fabs(e.row[jeep].vx - 9.0) < 1e-9);
+    assert_true(e.row[tank].vz == 0.0 && e.row[jeep].vz == 0.0);
     assert_true(fabs((double)collision()->impulse_ns - 9000.0) < 1e-3);
     assert_true(fabs((double)collision()->closing_mps - 8.0) < 1e-6);
     assert_true(fabs(collision()->toi - 0.5) < 1e-9);
     assert_int_equal(collision()->response, RESPONSE_BOUNCE);
     /* Lost: half the reduced mass of 750 times 64 times 1 - e^2, the jeep three quarters of it. */
     const double jeep_j = 13500.0 * IMPACT_HARM_OUTSIDE, tank_j = 4500.0 * IMPACT_HARM_OUTSIDE;
-    assert_true(fabs(e.harm_j[jeep] - deformation_of(steps_kind(&f, "jeep"), jeep_j).harm_j) <
+    assert_true(fabs(e.row[jeep].harm_j - deformation_of(steps_kind(&f, "jeep"), jeep_j).harm_j) <
                 1e-6);
-    assert_true(fabs(e.harm_j[tank] - deformation_of(steps_kind(&f, "tank"), tank_j).harm_j) <
+    assert_true(fabs(e.row[tank].harm_j - deformation_of(steps_kind(&f, "tank"), tank_j).harm_j) <
                 1e-6);
 }
 
@@ -96,8 +96,8 @@ static void test_the_softer_of_the_two_decides_the_bounce(void **state)
     (void)state;
     steps_kind(&f, "jeep")->restitution = 0.0;
     ram(&tank, &jeep);
-    assert_true(fabs(steps_rows(&f).vx[tank] - 6.0) < 1e-9);
-    assert_true(fabs(steps_rows(&f).vx[jeep] - 6.0) < 1e-9);
+    assert_true(fabs(steps_rows(&f).row[tank].vx - 6.0) < 1e-9);
+    assert_true(fabs(steps_rows(&f).row[jeep].vx - 6.0) < 1e-9);
     assert_int_equal(collision()->response, RESPONSE_STOP);
 }
 
@@ -108,13 +108,13 @@ static void test_bodies_continue_from_where_they_touched(void **state)
     ram(&tank, &jeep);
     struct entities e = steps_rows(&f);
     /* Half the frame is left, at 5 and at 9 m/s. */
-    assert_true(fabs(e.x[tank] - (20000.0 + 4.0 / 60.0 + 2.5 / 60.0)) < 1e-9);
-    assert_true(fabs(e.x[jeep] - (20004.6 + 4.0 / 60.0 + 4.5 / 60.0)) < 1e-9);
-    assert_int_equal(e.bumped[tank] & e.bumped[jeep], 1);
-    assert_true(fabs((double)e.bump_heading[tank] - 1.5 * PI) < 1e-6); /* away is west */
-    assert_true(fabs((double)e.bump_heading[jeep] - HALF_PI) < 1e-6);
+    assert_true(fabs(e.row[tank].x - (20000.0 + 4.0 / 60.0 + 2.5 / 60.0)) < 1e-9);
+    assert_true(fabs(e.row[jeep].x - (20004.6 + 4.0 / 60.0 + 4.5 / 60.0)) < 1e-9);
+    assert_int_equal(e.row[tank].bumped & e.row[jeep].bumped, 1);
+    assert_true(fabs((double)e.row[tank].bump_heading - 1.5 * PI) < 1e-6); /* away is west */
+    assert_true(fabs((double)e.row[jeep].bump_heading - HALF_PI) < 1e-6);
     fixture_run(&f, 1);
-    assert_true(fabs(steps_rows(&f).x[jeep] - e.x[jeep] - 9.0 / 60.0) < 1e-9);
+    assert_true(fabs(steps_rows(&f).row[jeep].x - e.row[jeep].x - 9.0 / 60.0) < 1e-9);
     assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 1);
 }
 
@@ -133,15 +133,16 @@ static void test_friction_drags_along_and_turns(void **state)
     (void)state;
     graze(0.5, &tank, &jeep);
     struct entities e = steps_rows(&f);
-    double across = e.vz[tank] * 0.8 - e.vx[tank] * 0.6;
-    double dragged = e.vz[jeep] * 0.8 - e.vx[jeep] * 0.6;
+    double across = e.row[tank].vz * 0.8 - e.row[tank].vx * 0.6;
+    double dragged = e.row[jeep].vz * 0.8 - e.row[jeep].vx * 0.6;
     assert_true(across > -8.0 * 0.6 && dragged < 0.0); /* some of it went over */
     double mt = steps_kind(&f, "tank")->mass_kg, mj = steps_kind(&f, "jeep")->mass_kg;
-    assert_true(fabs(mt * e.vx[tank] + mj * e.vx[jeep] - 8.0 * mt) < 1e-6 * mt);
-    assert_true(fabs(mt * e.vz[tank] + mj * e.vz[jeep]) < 1e-6 * mt);
+    assert_true(fabs(mt * e.row[tank].vx + mj * e.row[jeep].vx - 8.0 * mt) < 1e-6 * mt);
+    assert_true(fabs(mt * e.row[tank].vz + mj * e.row[jeep].vz) < 1e-6 * mt);
     /* The jeep's north-west side is dragged to the north-east: clockwise, seen from above. */
-    assert_true(e.spin_y[jeep] < 0.0 && e.spin_y[tank] != 0.0);
-    assert_true(e.spin_x[jeep] == 0.0 && e.spin_z[jeep] == 0.0); /* the ground holds it level */
+    assert_true(e.row[jeep].spin_y < 0.0 && e.row[tank].spin_y != 0.0);
+    assert_true(e.row[jeep].spin_x == 0.0 &&
+                e.row[jeep].spin_z == 0.0); /* the ground holds it level */
 }
 
 static void test_without_friction_only_the_speed_along_the_normal_changes(void **state)
@@ -150,19 +151,19 @@ static void test_without_friction_only_the_speed_along_the_normal_changes(void *
     (void)state;
     graze(0.0, &tank, &jeep);
     struct entities e = steps_rows(&f);
-    double along = e.vx[tank] * 0.8 + e.vz[tank] * 0.6,
-           across = e.vz[tank] * 0.8 - e.vx[tank] * 0.6;
+    double along = e.row[tank].vx * 0.8 + e.row[tank].vz * 0.6,
+           across = e.row[tank].vz * 0.8 - e.row[tank].vx * 0.6;
     assert_true(fabs(across + 8.0 * 0.6) < 1e-6);
     assert_true(fabs(along - 8.0 * 0.8 * 5.0 / 8.0) < 1e-6);
-    assert_true(fabs(e.vx[jeep] * 0.6 - e.vz[jeep] * 0.8) < 1e-6);
+    assert_true(fabs(e.row[jeep].vx * 0.6 - e.row[jeep].vz * 0.8) < 1e-6);
 }
 
 static double kinetic_j(uint32_t row)
 {
     struct entities e = steps_rows(&f);
-    const struct mass_properties mass = mass_properties_of(&f.view.world.kinds[e.kind[row]]);
-    return 0.5 * mass.mass_kg * (e.vx[row] * e.vx[row] + e.vz[row] * e.vz[row]) +
-           0.5 * mass.moment.y * e.spin_y[row] * e.spin_y[row];
+    const struct mass_properties mass = mass_properties_of(&f.view.world.kinds[e.row[row].kind]);
+    return 0.5 * mass.mass_kg * (e.row[row].vx * e.row[row].vx + e.row[row].vz * e.row[row].vz) +
+           0.5 * mass.moment.y * e.row[row].spin_y * e.row[row].spin_y;
 }
 
 static void test_half_of_the_work_of_friction_is_heat(void **state)
@@ -172,12 +173,12 @@ static void test_half_of_the_work_of_friction_is_heat(void **state)
     graze(0.5, &tank, &jeep);
     struct entities e = steps_rows(&f);
     double lost = 0.5 * 3000.0 * 64.0 - kinetic_j(tank) - kinetic_j(jeep);
-    double impulse = 1000.0 * (e.vx[jeep] * 0.8 + e.vz[jeep] * 0.6);
+    double impulse = 1000.0 * (e.row[jeep].vx * 0.8 + e.row[jeep].vz * 0.6);
     double along = 0.5 * impulse * 8.0 * 0.8 * (1.0 - 0.5), rubbed = lost - along;
     assert_true(rubbed > 0.02 * lost);
     double jeep_j = 0.75 * (along + 0.5 * rubbed) * IMPACT_HARM_OUTSIDE;
     double harm = deformation_of(steps_kind(&f, "jeep"), jeep_j).harm_j;
-    assert_true(fabs(e.harm_j[jeep] - harm) < 1e-3 * harm);
+    assert_true(fabs(e.row[jeep].harm_j - harm) < 1e-3 * harm);
 }
 
 /* --- fixed objects -----------------------------------------------------------------------------*/
@@ -196,11 +197,11 @@ static void test_a_wall_throws_it_back(void **state)
     double restitution = maths_min(0.5, steps_kind(&f, "building")->restitution);
     uint32_t row = into(1, 10.0, 9.0);
     (void)state;
-    assert_true(fabs(steps_rows(&f).vx[row] + 10.0 * restitution) < 1e-6);
+    assert_true(fabs(steps_rows(&f).row[row].vx + 10.0 * restitution) < 1e-6);
     double energy = 0.5 * 3000.0 * 100.0;
     double rigidity = steps_kind(&f, "building")->rigidity;
     double lost = energy * (1.0 - restitution * restitution) * rigidity;
-    assert_true(fabs(steps_rows(&f).harm_j[row] -
+    assert_true(fabs(steps_rows(&f).row[row].harm_j -
                      deformation_of(steps_kind(&f, "tank"), lost).harm_j) < 1e-3);
 }
 
@@ -223,17 +224,17 @@ static void test_what_breaks_costs_its_resistance_and_takes_momentum(void **stat
     assert_int_equal(fallen_damage(fixture_state(&f).fixed_damage[0]), DAMAGE_HIGH);
     assert_int_equal(collision()->response, RESPONSE_SLOW);
     assert_int_equal(collision()->b.damage, DAMAGE_HIGH);
-    assert_true(fabs(steps_rows(&f).vx[row] - after) < 1e-6);
+    assert_true(fabs(steps_rows(&f).row[row].vx - after) < 1e-6);
     assert_true(fabs((double)collision()->impulse_ns - 3000.0 * (speed - after)) < 1e-2);
     /* A quarter of the frame before, the rest after, at its new speed. */
     double from = 25000.0 - 3.0 - (double)1.8f;
-    assert_true(fabs(steps_rows(&f).x[row] - from - 0.75 * after / 60.0) < 1e-6);
+    assert_true(fabs(steps_rows(&f).row[row].x - from - 0.75 * after / 60.0) < 1e-6);
     /* The tank takes the tree's rigidity of what is lost. */
     double debris = steps_kind(&f, "tree")->mass_kg / 4.0;
     double lost = 0.5 * 3000.0 * speed * speed - 0.5 * (3000.0 + debris) * after * after;
     double taken = lost * steps_kind(&f, "tree")->rigidity;
     double harm = deformation_of(steps_kind(&f, "tank"), taken).harm_j;
-    assert_true(fabs(steps_rows(&f).harm_j[row] - harm) < 1e-6 * harm);
+    assert_true(fabs(steps_rows(&f).row[row].harm_j - harm) < 1e-6 * harm);
     fixture_run(&f, 30);
     assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 1); /* a stump stops no vehicle */
 }
@@ -247,7 +248,8 @@ static void test_what_breaks_changes_the_speed_along_the_normal_only(void **stat
     fixture_run(&f, 1);
     struct entities e = steps_rows(&f);
     assert_int_equal(fallen_damage(fixture_state(&f).fixed_damage[0]), DAMAGE_HIGH);
-    double along = e.vx[row] * 0.8 + e.vz[row] * 0.6, across = e.vz[row] * 0.8 - e.vx[row] * 0.6;
+    double along = e.row[row].vx * 0.8 + e.row[row].vz * 0.6,
+           across = e.row[row].vz * 0.8 - e.row[row].vx * 0.6;
     assert_true(fabs(across + 0.6 * speed) < 1e-4);
     assert_true(fabs(along - through_tree(0.8 * speed)) < 1e-4);
 }
@@ -258,7 +260,7 @@ static void test_what_withstands_by_a_hair_stops_it(void **state)
     uint32_t row = into(0, speed * (1.0 - 1e-6), (double)1.8f);
     (void)state;
     assert_int_equal(fixture_state(&f).fixed_damage[0], DAMAGE_MED);
-    assert_true(steps_rows(&f).vx[row] <= 0.0);
+    assert_true(steps_rows(&f).row[row].vx <= 0.0);
 }
 
 static void test_row_32_a_bush_does_and_takes_no_damage(void **state)
@@ -267,8 +269,8 @@ static void test_row_32_a_bush_does_and_takes_no_damage(void **state)
     (void)state;
     fixture_run(&f, 60);
     assert_int_equal(fixture_state(&f).fixed_damage[2], DAMAGE_NONE);
-    assert_true(steps_rows(&f).harm_j[row] == 0.0);
-    assert_true(steps_rows(&f).vx[row] > 5.0 && steps_rows(&f).vx[row] < 10.0);
+    assert_true(steps_rows(&f).row[row].harm_j == 0.0);
+    assert_true(steps_rows(&f).row[row].vx > 5.0 && steps_rows(&f).row[row].vx < 10.0);
     assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 1);
 }
 
@@ -291,8 +293,9 @@ static void test_no_extreme_of_mass_or_resistance_makes_a_nan(void **state)
             fixture_run(&f, 3);
             struct entities e = steps_rows(&f);
             for (uint32_t i = 0; i < 3; i++)
-                assert_true(isfinite(e.x[i]) && isfinite(e.y[i]) && isfinite(e.z[i]) &&
-                            isfinite(e.vx[i]) && isfinite(e.vz[i]) && isfinite(e.harm_j[i]));
+                assert_true(isfinite(e.row[i].x) && isfinite(e.row[i].y) && isfinite(e.row[i].z) &&
+                            isfinite(e.row[i].vx) && isfinite(e.row[i].vz) &&
+                            isfinite(e.row[i].harm_j));
         }
     }
 }

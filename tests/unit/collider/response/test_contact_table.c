@@ -40,8 +40,8 @@ static struct persistent_contact *know(uint32_t a, uint32_t b, uint32_t begun, u
     struct state now = fixture_state(&f);
     bool fixed = b & PERSISTENT_CONTACT_FIXED;
     struct persistent_contact *contact = &now.contacts[now.head->contact_count++];
-    *contact = (struct persistent_contact){.a_id = now.entities.id[a],
-                                           .b_id = fixed ? b : now.entities.id[b],
+    *contact = (struct persistent_contact){.a_id = now.entities.row[a].id,
+                                           .b_id = fixed ? b : now.entities.row[b].id,
                                            .a_row = a,
                                            .b_row = fixed ? SLOT_NONE : b,
                                            .begin_tick = begun,
@@ -67,7 +67,7 @@ static void strike(uint32_t a, uint32_t b, uint32_t count, float impulse_ns)
 
 static void move(uint32_t row)
 {
-    context.next->entities.x[row] += 0.25;
+    context.next->entities.row[row].x += 0.25;
     body_motion_compute(context.motion, row);
 }
 
@@ -181,7 +181,7 @@ static void test_reused_rows_are_sorted_by_their_ids(void **state)
     const struct persistent_contact right = {2, 50, 1,    0,     TICK,        TICK,
                                              0, 0,  0.0f, {{0}}, {{{0}, {0}}}};
     (void)state;
-    steps_rows(&f).id[0] = 50;
+    steps_rows(&f).row[0].id = 50;
     begin();
     press(0, 1, 0);
     assert_memory_equal(finish(1, 0), &right, sizeof right);
@@ -229,7 +229,7 @@ static void test_known_are_the_committed(void **state)
     assert_ptr_equal(contact_table_find(&context, 2, PAIR_FIXED), first + 2);
     assert_null(contact_table_find(&context, 0, 2));
     assert_null(contact_table_find(&context, 4, 5));
-    context.next->entities.id[1] = 60; /* another entity in the row */
+    context.next->entities.row[1].id = 60; /* another entity in the row */
     assert_null(contact_table_find(&context, 0, 1));
     steps_respond_end(&context);
 }
@@ -264,7 +264,7 @@ static void test_bodies_that_still_touch_stay_in_contact(void **state)
     (void)state;
     know(0, 1, 70, TICK - lasts - 1);
     begin();
-    context.next->entities.x[1] = context.next->entities.x[0] + 1.0;
+    context.next->entities.row[1].x = context.next->entities.row[0].x + 1.0;
     body_motion_compute(context.motion, 1);
     assert_int_equal(finish(1, 0)[0].pressed_tick, TICK);
 }
@@ -283,7 +283,7 @@ static void test_bodies_that_are_near_stay_in_contact(void **state)
     for (uint32_t i = 0; i < 2; i++) {
         double gap = CONTACT_TABLE_PARTED_M + (i == 0 ? -1e-3 : 1e-3);
         at[i] = entities_position(&context.next->entities, 2 * i);
-        context.next->entities.x[2 * i + 1] = at[i].x + reach + gap;
+        context.next->entities.row[2 * i + 1].x = at[i].x + reach + gap;
         body_motion_compute(context.motion, 2 * i + 1);
     }
     const struct persistent_contact *contact = finish(1, 1);
@@ -299,8 +299,8 @@ static void test_a_body_that_is_gone_ends_its_contacts_at_once(void **state)
     know(3, 4, 7, TICK - 1);
     begin();
     press(1, 2, 0); /* even if it pressed before */
-    context.next->entities.state[1] = ENTITY_FREE;
-    context.next->entities.id[4] = 77; /* another one in its row */
+    context.next->entities.row[1].state = ENTITY_FREE;
+    context.next->entities.row[4].id = 77; /* another one in its row */
     finish(0, 3);
     assert_true(event_of(0)->contact_end.b.id == 2 && event_of(2)->contact_end.b.id == 5);
     assert_int_equal(event_of(0)->contact_end.because, CONTACT_END_GONE);
@@ -340,7 +340,7 @@ static void test_contacts_without_room_are_counted(void **state)
     press(3, 5, 0);
     press(2, 5, 0);
     press(2, 3, 0);
-    context.next->entities.damage[5] = DAMAGE_HIGH; /* in this frame */
+    context.next->entities.row[5].damage = DAMAGE_HIGH; /* in this frame */
     const struct persistent_contact *contacts = finish(3, 1);
     assert_int_equal(context.next->head->tally.contacts_refused, 3);
     assert_int_equal(told, 2);

@@ -51,13 +51,13 @@ static void test_harm_adds_up_to_three_levels_and_destruction(void **state)
     for (size_t n = 0; n < sizeof blows / sizeof blows[0]; n++) {
         sum += blows[n].share * resistance;
         damage_row(&context, 0, blows[n].share * resistance, 0.0);
-        assert_int_equal(rows()->damage[0], blows[n].damage);
-        assert_true(fabs(rows()->harm_j[0] - sum) < 1e-6);
-        assert_int_equal(rows()->state[0],
+        assert_int_equal(rows()->row[0].damage, blows[n].damage);
+        assert_true(fabs(rows()->row[0].harm_j - sum) < 1e-6);
+        assert_int_equal(rows()->row[0].state,
                          blows[n].damage == DAMAGE_DESTROYED ? ENTITY_WRECK : ENTITY_ACTIVE);
     }
     assert_int_equal(context.next->head->tally.destroyed, 1);
-    assert_int_equal(rows()->damage[1], DAMAGE_NONE);
+    assert_int_equal(rows()->row[1].damage, DAMAGE_NONE);
 }
 
 static void test_no_energy_and_nonsense_do_no_damage(void **state)
@@ -66,8 +66,8 @@ static void test_no_energy_and_nonsense_do_no_damage(void **state)
     damage_row(&context, 0, 0.0, 0.0);
     damage_row(&context, 0, -5.0, 0.0);
     damage_row(&context, 0, (double)NAN, 0.0);
-    assert_true(rows()->harm_j[0] == 0.0);
-    assert_int_equal(rows()->state[0], ENTITY_ACTIVE);
+    assert_true(rows()->row[0].harm_j == 0.0);
+    assert_int_equal(rows()->row[0].state, ENTITY_ACTIVE);
 }
 
 static void test_one_is_destroyed_once(void **state)
@@ -83,9 +83,9 @@ static void test_one_is_destroyed_once(void **state)
     damage_destroy(&context, 0, 0.5);
     assert_int_equal(context.charges->count, 1);
     assert_int_equal(context.next->head->tally.destroyed, 1);
-    assert_int_equal(rows()->behaviour[0], BEHAVIOUR_IDLE);
-    assert_int_equal(rows()->order[0], BEHAVIOUR_IDLE);
-    assert_int_equal(rows()->changed_tick[0], context.next->head->tick);
+    assert_int_equal(rows()->row[0].behaviour, BEHAVIOUR_IDLE);
+    assert_int_equal(rows()->row[0].order, BEHAVIOUR_IDLE);
+    assert_int_equal(rows()->row[0].changed_tick, context.next->head->tick);
 }
 
 static void test_row_27_a_fixed_object_keeps_its_hardest_impact(void **state)
@@ -139,12 +139,12 @@ static void test_row_26_resistance_decides(void **state)
     (void)state;
     steps_kind(&f, "jeep")->resistance_j = 1000.0;
     damage_row(&context, 0, 999.0, 0.0);
-    assert_int_equal(rows()->state[0], ENTITY_ACTIVE);
+    assert_int_equal(rows()->row[0].state, ENTITY_ACTIVE);
     steps_kind(&f, "jeep")->resistance_j = 998.0;
-    rows()->until_tick[1] = 5;
+    rows()->row[1].until_tick = 5;
     damage_row(&context, 1, 999.0, 0.0);
-    assert_int_equal(rows()->state[1], ENTITY_WRECK);
-    assert_int_equal(rows()->until_tick[1], 0); /* the wreck is not at rest yet */
+    assert_int_equal(rows()->row[1].state, ENTITY_WRECK);
+    assert_int_equal(rows()->row[1].until_tick, 0); /* the wreck is not at rest yet */
 }
 
 int main(void)

@@ -59,14 +59,14 @@ static void test_a_heap_takes_the_momentum_that_the_vehicle_loses(void **state)
         put((struct debris){.x = 25000.0, .z = 24996.0, .mass_kg = 4000.0f, .radius_m = 1.0f});
     (void)state;
     debris_push_step(&context);
-    double gained = 4000.0 * (-(double)heap->vz + grip()), lost = mass * (10.0 + e->vz[tank]);
+    double gained = 4000.0 * (-(double)heap->vz + grip()), lost = mass * (10.0 + e->row[tank].vz);
     assert_true(lost > 0.0 && fabs(gained - lost) < 1e-4 * lost);
     for (int frame = 0; frame < 300 && -heap->vz < 8.5f; frame++) {
         heap->z = 24996.0; /* the vehicle stays behind it */
         debris_push_step(&context);
     }
-    assert_true(e->vz[tank] > -10.0 && -heap->vz >= 8.5f); /* it is pushed along */
-    assert_true(e->vx[tank] == 0.0 && heap->vx == 0.0f);
+    assert_true(e->row[tank].vz > -10.0 && -heap->vz >= 8.5f); /* it is pushed along */
+    assert_true(e->row[tank].vx == 0.0 && heap->vx == 0.0f);
 }
 
 static void test_what_is_beside_behind_or_faster_takes_nothing(void **state)
@@ -79,7 +79,7 @@ static void test_what_is_beside_behind_or_faster_takes_nothing(void **state)
     for (size_t n = 0; n < sizeof aside / sizeof aside[0]; n++) {
         put(aside[n]);
         debris_push_step(&context);
-        assert_true(context.next->entities.vz[tank] == -10.0);
+        assert_true(context.next->entities.row[tank].vz == -10.0);
         context.next->head->debris_count = 0;
     }
 }
@@ -111,7 +111,7 @@ static void test_a_trunk_turns_when_it_is_not_struck_in_its_middle(void **state)
     /* Its western half goes north: clockwise. */
     assert_true(trunk->spin_rps > 0.0f && trunk->vz < 0.0f);
     for (int frame = 0; frame < 200; frame++) {
-        context.next->entities.z[tank] = 25100.0; /* out of its way */
+        context.next->entities.row[tank].z = 25100.0; /* out of its way */
         debris_push_step(&context);
     }
     assert_true(trunk->spin_rps == 0.0f && (double)trunk->heading_rad > HALF_PI);
@@ -121,14 +121,14 @@ static void test_a_vehicle_that_stands_stops_it_and_is_not_moved(void **state)
 {
     struct entities *e = &context.next->entities;
     (void)state;
-    e->vz[tank] = 0.0;
+    e->row[tank].vz = 0.0;
     struct debris *heap = put((struct debris){
         .x = 25000.0, .z = 24995.6, .vz = 0.5f, .mass_kg = 4000.0f, .radius_m = 1.0f});
     debris_push_step(&context);
     assert_true(heap->vz < 0.5f - (float)grip());
     for (int frame = 0; frame < 20; frame++)
         debris_push_step(&context);
-    assert_true(heap->vz == 0.0f && e->vz[tank] == 0.0 && e->z[tank] == 25000.0);
+    assert_true(heap->vz == 0.0f && e->row[tank].vz == 0.0 && e->row[tank].z == 25000.0);
 }
 
 /* --- what falls --------------------------------------------------------------------------------*/

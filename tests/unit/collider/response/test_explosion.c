@@ -55,7 +55,7 @@ static void test_row_31_artillery_on_ground_leaves_a_crater(void **state)
     assert_int_equal(now.head->crater_count, 1);
     assert_true(now.craters[0].x == event->crater.point[0]);
     assert_int_equal(now.craters[0].frame, event->frame);
-    assert_int_equal(now.entities.state[round], ENTITY_FREE);
+    assert_int_equal(now.entities.row[round].state, ENTITY_FREE);
     assert_int_equal(now.head->munitions, 0);
     /* The next frame drives through it. */
     fixture_run(&f, 1);
@@ -71,7 +71,7 @@ static void test_row_31_artillery_on_a_tank_destroys_it_and_leaves_no_crater(voi
     assert_int_equal(detonation(0)->struck, STRUCK_VEHICLE);
     assert_int_equal(detonation(0)->struck_party.id, tank + 1);
     assert_int_equal(detonation(0)->struck_party.damage, DAMAGE_DESTROYED);
-    assert_int_equal(steps_rows(&f).state[tank], ENTITY_WRECK);
+    assert_int_equal(steps_rows(&f).row[tank].state, ENTITY_WRECK);
     assert_int_equal(fixture_event_count(&f, EVENT_CRATER), 0);
     assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 0); /* munitions only explode */
     assert_int_equal(fixture_state(&f).head->crater_count, 0);
@@ -122,7 +122,7 @@ static void test_a_round_into_a_tree_fells_it_and_then_others_pass(void **state)
     uint32_t jeep = put("jeep", 24990.0, 100.0, 25000.0, (struct vec3){20.0, 0.0, 0.0});
     fixture_run(&f, 60);
     assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 0);
-    assert_true(fabs(steps_rows(&f).x[jeep] - 25010.0) < 1e-6);
+    assert_true(fabs(steps_rows(&f).row[jeep].x - 25010.0) < 1e-6);
 }
 
 static void test_a_charge_of_nothing_digs_nothing(void **state)
@@ -165,7 +165,7 @@ static void burst(const double *distance, uint32_t count, uint32_t *first)
             (struct vec3){0.0, 0.0, 0.0});
     }
     bomb = put("bomb", 26000.0, 100.0 + 1e-9, 26000.0, (struct vec3){0.0, 0.0, 0.0});
-    steps_rows(&f).until_tick[bomb] = 0;                /* now, by its time fuse */
+    steps_rows(&f).row[bomb].until_tick = 0;            /* now, by its time fuse */
     steps_kind(&f, "bomb")->guidance = GUIDANCE_HOMING; /* it does not fall */
     fixture_run(&f, 1);
     assert_int_equal(detonation(0)->struck, STRUCK_AIR);
@@ -181,7 +181,7 @@ static void test_an_explosion_damages_all_bodies_within_its_radius_only(void **s
                             : radius * (1.0 - 0.003 * (n + 1) * sqrt(n + 1.0));
     burst(distance, 60, &first);
     for (uint32_t n = 0; n < 60; n++)
-        assert_int_equal(steps_rows(&f).harm_j[first + n] > 0.0, n % 2 == 0);
+        assert_int_equal(steps_rows(&f).row[first + n].harm_j > 0.0, n % 2 == 0);
 }
 
 static void test_blast_falls_off_with_distance(void **state)
@@ -193,10 +193,10 @@ static void test_blast_falls_off_with_distance(void **state)
         distance[n] = 0.5 + 1.2 * n;
     burst(distance, 30, &first);
     for (uint32_t n = 0; n < 30; n++) {
-        assert_true(steps_rows(&f).harm_j[first + n] < before || before == 0.0);
-        before = steps_rows(&f).harm_j[first + n];
+        assert_true(steps_rows(&f).row[first + n].harm_j < before || before == 0.0);
+        before = steps_rows(&f).row[first + n].harm_j;
     }
-    assert_true(steps_rows(&f).harm_j[first] > 0.0);
+    assert_true(steps_rows(&f).row[first].harm_j > 0.0);
 }
 
 static void test_a_burst_is_felt_at_three_times_its_radius(void **state)
@@ -207,17 +207,17 @@ static void test_a_burst_is_felt_at_three_times_its_radius(void **state)
     (void)state;
     burst(distance, 5, &first);
     for (uint32_t n = 0; n < 5; n++) /* jeeps on a held course feel nothing */
-        assert_int_equal(steps_rows(&f).flags[first + n] & ENTITY_FLAG_BURST, 0);
+        assert_int_equal(steps_rows(&f).row[first + n].flags & ENTITY_FLAG_BURST, 0);
     steps_empty(&f);
     for (uint32_t n = 0; n < 5; n++) {
         uint32_t row = put("jeep", 26000.0 + distance[n], 100.0, 26000.0, (struct vec3){0});
-        steps_rows(&f).behaviour[row] = BEHAVIOUR_IDLE;
+        steps_rows(&f).row[row].behaviour = BEHAVIOUR_IDLE;
     }
     uint32_t bomb = put("bomb", 26000.0, 100.0 + 1e-9, 26000.0, (struct vec3){0});
-    steps_rows(&f).until_tick[bomb] = 0;
+    steps_rows(&f).row[bomb].until_tick = 0;
     fixture_run(&f, 1);
     for (uint32_t n = 0; n < 5; n++)
-        assert_int_equal(steps_rows(&f).flags[n] & ENTITY_FLAG_BURST,
+        assert_int_equal(steps_rows(&f).row[n].flags & ENTITY_FLAG_BURST,
                          n < 3 ? ENTITY_FLAG_BURST : 0);
 }
 
@@ -237,11 +237,11 @@ static void test_a_body_in_several_squares_is_harmed_once(void **state)
         uint32_t ship = put("ship", x, 100.0, z, (struct vec3){0.0, 0.0, 0.0});
         uint32_t bomb = put("bomb", x + (n % 4 < 2 ? way : 0.0), 100.0 + 1e-9,
                             z + (n % 4 < 2 ? 0.0 : way), (struct vec3){0.0, 0.0, 0.0});
-        steps_rows(&f).until_tick[bomb] = 0;
+        steps_rows(&f).row[bomb].until_tick = 0;
         fixture_run(&f, 1);
         if (n == 0)
-            first = steps_rows(&f).harm_j[ship];
-        assert_true(first > 0.0 && fabs(steps_rows(&f).harm_j[ship] - first) < 1e-3);
+            first = steps_rows(&f).row[ship].harm_j;
+        assert_true(first > 0.0 && fabs(steps_rows(&f).row[ship].harm_j - first) < 1e-3);
     }
 }
 
@@ -254,17 +254,17 @@ static void test_blast_alarms_the_enemy_and_spares_no_friend(void **state)
     steps_kind(&f, "jeep")->resistance_j = 1e12;
     uint32_t bomb = put("bomb", 26010.0, 100.0 + 1e-9, 26000.0, (struct vec3){0.0, 0.0, 0.0});
     struct entities e = steps_rows(&f);
-    e.force[shooter] = e.force[friend] = FORCE_BLUE;
-    e.force[enemy] = FORCE_RED;
-    e.owner_slot[bomb] = shooter;
-    e.owner_id[bomb] = e.id[shooter];
-    e.until_tick[bomb] = 0;
+    e.row[shooter].force = e.row[friend].force = FORCE_BLUE;
+    e.row[enemy].force = FORCE_RED;
+    e.row[bomb].owner_slot = shooter;
+    e.row[bomb].owner_id = e.row[shooter].id;
+    e.row[bomb].until_tick = 0;
     steps_kind(&f, "bomb")->guidance = GUIDANCE_HOMING;
     fixture_run(&f, 1);
     e = steps_rows(&f);
-    assert_true(e.harm_j[enemy] > 0.0 && e.harm_j[friend] > 0.0);
-    assert_int_equal(e.threat_id[enemy], e.id[shooter]);
-    assert_int_equal(e.threat_id[friend], 0); /* a stray round of one's own is no attack */
+    assert_true(e.row[enemy].harm_j > 0.0 && e.row[friend].harm_j > 0.0);
+    assert_int_equal(e.row[enemy].threat_id, e.row[shooter].id);
+    assert_int_equal(e.row[friend].threat_id, 0); /* a stray round of one's own is no attack */
 }
 
 /* --- push --------------------------------------------------------------------------------------*/
@@ -275,7 +275,7 @@ static void burst_at(double x, double y, double z)
 {
     steps_kind(&f, "artillery")->guidance = GUIDANCE_HOMING; /* it does not fall */
     uint32_t round = put("artillery", x, y, z, (struct vec3){0.0, 0.0, 0.0});
-    steps_rows(&f).until_tick[round] = 0;
+    steps_rows(&f).row[round].until_tick = 0;
     fixture_run(&f, 1);
     assert_int_equal(fixture_state(&f).head->tally.detonations, 1);
 }
@@ -297,10 +297,11 @@ static void test_a_blast_throws_light_bodies_and_nudges_heavy_ones(void **state)
         uint32_t row = put_east(kinds[n], 26006.0, 100.0, 26000.0); /* it turns its rear to it */
         burst_at(26000.0, 100.5, 26000.0);
         struct entities e = steps_rows(&f);
-        assert_true(e.vx[row] > 0.0 && e.vx[row] < before);
-        assert_true(fabs(e.vz[row]) < 1e-9 * e.vx[row] && e.vy[row] == 0.0);
-        assert_true(fabs(e.spin_x[row]) + fabs(e.spin_y[row]) + fabs(e.spin_z[row]) < 1e-9);
-        before = e.vx[row];
+        assert_true(e.row[row].vx > 0.0 && e.row[row].vx < before);
+        assert_true(fabs(e.row[row].vz) < 1e-9 * e.row[row].vx && e.row[row].vy == 0.0);
+        assert_true(fabs(e.row[row].spin_x) + fabs(e.row[row].spin_y) + fabs(e.row[row].spin_z) <
+                    1e-9);
+        before = e.row[row].vx;
     }
     assert_true(before < 0.2); /* the tank */
 }
@@ -314,8 +315,8 @@ static void test_a_blast_throws_further_from_near_by(void **state)
         steps_empty(&f);
         uint32_t row = put_east("jeep", 26000.0 + distance, 100.0, 26000.0);
         burst_at(26000.0, 100.5, 26000.0);
-        assert_true(steps_rows(&f).vx[row] > 0.0 && steps_rows(&f).vx[row] < before);
-        before = steps_rows(&f).vx[row];
+        assert_true(steps_rows(&f).row[row].vx > 0.0 && steps_rows(&f).row[row].vx < before);
+        before = steps_rows(&f).row[row].vx;
     }
 }
 
@@ -329,9 +330,10 @@ static void test_an_aircraft_takes_all_of_a_blast(void **state)
         uint32_t far = put_east("helicopter", 26000.0, 900.0, 20000.0);
         burst_at(26000.0 + 6.0 * n, 895.0, 26000.0); /* below it; below its nose */
         struct entities e = steps_rows(&f);
-        assert_true(e.vy[row] > e.vy[far] + 0.1);
-        assert_true(n == 0 ? fabs(e.vx[row]) < 1e-6 : e.vx[row] < 0.0);
-        assert_true(n == 0 ? fabs(e.spin_z[row]) < 1e-9 : e.spin_z[row] > 1e-4); /* nose up */
+        assert_true(e.row[row].vy > e.row[far].vy + 0.1);
+        assert_true(n == 0 ? fabs(e.row[row].vx) < 1e-6 : e.row[row].vx < 0.0);
+        assert_true(n == 0 ? fabs(e.row[row].spin_z) < 1e-9
+                           : e.row[row].spin_z > 1e-4); /* nose up */
     }
 }
 
@@ -342,8 +344,8 @@ static void test_a_blast_beside_the_front_turns_it_away(void **state)
     uint32_t row = put_east("truck", 26000.0, 100.0, 26000.0);
     burst_at(26003.0, 100.5, 26008.0); /* to the south of its front, which turns north: left */
     struct entities e = steps_rows(&f);
-    assert_true(e.vz[row] < 0.0 && e.spin_y[row] > 0.0);
-    assert_true(e.spin_x[row] == 0.0 && e.spin_z[row] == 0.0);
+    assert_true(e.row[row].vz < 0.0 && e.row[row].spin_y > 0.0);
+    assert_true(e.row[row].spin_x == 0.0 && e.row[row].spin_z == 0.0);
 }
 
 static void test_what_a_blast_pushes_collides(void **state)
@@ -353,10 +355,10 @@ static void test_what_a_blast_pushes_collides(void **state)
     uint32_t jeep = put_east("jeep", 26005.0, 100.0, 26000.0);
     uint32_t other = put_east("jeep", 26005.0 + 3.3, 100.0, 26000.0); /* 10 cm ahead */
     burst_at(26000.0, 100.5, 26000.0);
-    assert_true(steps_rows(&f).vx[jeep] > steps_rows(&f).vx[other] + 0.3);
+    assert_true(steps_rows(&f).row[jeep].vx > steps_rows(&f).row[other].vx + 0.3);
     fixture_run(&f, 30);
     assert_true(fixture_event_count(&f, EVENT_COLLISION) > 0);
-    assert_true(steps_rows(&f).x[other] - steps_rows(&f).x[jeep] > 3.2 - 1e-3);
+    assert_true(steps_rows(&f).row[other].x - steps_rows(&f).row[jeep].x > 3.2 - 1e-3);
 }
 
 static void test_a_pushed_body_is_swept_in_the_same_frame(void **state)
@@ -369,7 +371,7 @@ static void test_a_pushed_body_is_swept_in_the_same_frame(void **state)
     fixture_run(&f, 1);
     assert_int_equal(detonation(0)->struck, STRUCK_GROUND);
     assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 1);
-    assert_true(steps_rows(&f).x[tank] - steps_rows(&f).x[jeep] > 4.6 - 1e-6);
+    assert_true(steps_rows(&f).row[tank].x - steps_rows(&f).row[jeep].x > 4.6 - 1e-6);
 }
 
 static void test_an_overturned_jeep_is_a_wreck(void **state)
@@ -382,11 +384,11 @@ static void test_an_overturned_jeep_is_a_wreck(void **state)
     uint32_t behind = put_east("jeep", 25992.0, 100.0, 26000.0);
     uint32_t tank = put("tank", 26000.0, 100.0, 26005.0, (struct vec3){0.0, 0.0, 0.0});
     burst_at(26000.0, 100.5, 26000.0);
-    assert_int_equal(steps_rows(&f).state[beside], ENTITY_WRECK); /* it shows its side */
-    assert_int_equal(steps_rows(&f).damage[beside], DAMAGE_DESTROYED);
-    assert_int_equal(steps_rows(&f).state[behind], ENTITY_ACTIVE); /* too far */
-    assert_int_equal(steps_rows(&f).state[tank], ENTITY_ACTIVE);
-    assert_true(steps_rows(&f).vx[beside] > 1.0);
+    assert_int_equal(steps_rows(&f).row[beside].state, ENTITY_WRECK); /* it shows its side */
+    assert_int_equal(steps_rows(&f).row[beside].damage, DAMAGE_DESTROYED);
+    assert_int_equal(steps_rows(&f).row[behind].state, ENTITY_ACTIVE); /* too far */
+    assert_int_equal(steps_rows(&f).row[tank].state, ENTITY_ACTIVE);
+    assert_true(steps_rows(&f).row[beside].vx > 1.0);
     assert_int_equal(fixture_state(&f).head->tally.destroyed, 1);
 }
 
@@ -400,7 +402,7 @@ static void test_no_blast_pushes_under_figure_8(void **state)
         steps_params(&f)->collision.response = models[n];
         uint32_t row = put_east("jeep", 26004.0, 100.0, 26000.0);
         burst_at(26000.0, 100.5, 26000.0);
-        assert_true(steps_rows(&f).vx[row] == 0.0 && steps_rows(&f).harm_j[row] > 0.0);
+        assert_true(steps_rows(&f).row[row].vx == 0.0 && steps_rows(&f).row[row].harm_j > 0.0);
     }
 }
 
@@ -417,7 +419,7 @@ static void test_an_indirect_hit_hurts_by_distance(void **state)
             (struct vec3){0.0, -300.0, 0.0});
         fixture_run(&f, 2);
         assert_int_equal(fixture_state(&f).head->tally.detonations, 1);
-        double harm = steps_rows(&f).harm_j[tank];
+        double harm = steps_rows(&f).row[tank].harm_j;
         assert_true(n == 4 ? harm == 0.0 : harm > 0.0 && harm < before);
         before = harm;
     }
@@ -436,7 +438,7 @@ static void test_a_chain_of_explosions_runs_to_its_end(void **state)
     put("artillery", 26000.0, 110.0, 26000.0, (struct vec3){0.0, -500.0, 0.0});
     fixture_run(&f, 1);
     for (uint32_t n = 0; n < 12; n++)
-        assert_int_equal(steps_rows(&f).state[row[n]], ENTITY_WRECK);
+        assert_int_equal(steps_rows(&f).row[row[n]].state, ENTITY_WRECK);
     assert_int_equal(fixture_state(&f).head->tally.destroyed, 12);
 }
 
@@ -456,7 +458,8 @@ static void test_the_shooter_is_not_hit_by_its_own_round_at_the_muzzle(void **st
         steps_send(&f, RING_CLIENTS, (struct command){.type = COMMAND_FIRE, .entity = tank + 1});
         fixture_run(&f, 60);
         assert_int_equal(fixture_state(&f).head->tally.fires, 2);
-        assert_true(steps_rows(&f).harm_j[jet] == 0.0 && steps_rows(&f).harm_j[tank] == 0.0);
+        assert_true(steps_rows(&f).row[jet].harm_j == 0.0 &&
+                    steps_rows(&f).row[tank].harm_j == 0.0);
         assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 0);
     }
 }

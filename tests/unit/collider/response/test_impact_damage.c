@@ -54,8 +54,8 @@ static void test_rows_33_47_an_impact_damages_and_dents(void **state)
     (void)state;
     struct deformation deformation = deformation_of(steps_kind(&f, "helicopter"), 4e5);
     impact_damage_row(&context, row, &impact, -1.0, 4e5, NULL);
-    assert_true(context.next->entities.harm_j[row] == deformation.harm_j);
-    assert_int_equal(context.next->entities.damage[row], DAMAGE_MED);
+    assert_true(context.next->entities.row[row].harm_j == deformation.harm_j);
+    assert_int_equal(context.next->entities.row[row].damage, DAMAGE_MED);
     assert_int_equal(dent(0)->id, row + 1);
     assert_true(fabs((double)dent(0)->plastic_m - deformation.plastic_m) < 1e-6);
     assert_true(fabs((double)dent(0)->elastic_m - deformation.elastic_m) < 1e-6);
@@ -99,7 +99,7 @@ static void test_no_energy_does_nothing(void **state)
     impact_damage_row(&context, row, &impact, -1.0, 0.0, NULL);
     impact_damage_row(&context, row, &impact, -1.0, 10.0, NULL);
     assert_int_equal(context.next->head->dent_count, 0);
-    assert_true(context.next->entities.harm_j[row] <= 10.0);
+    assert_true(context.next->entities.row[row].harm_j <= 10.0);
 }
 
 /* What it cannot take destroys it; a wreck is dented further and harmed no more. */
@@ -107,10 +107,10 @@ static void test_a_wreck_is_dented_and_not_harmed(void **state)
 {
     (void)state;
     impact_damage_row(&context, row, &impact, -1.0, 9e6, NULL);
-    assert_int_equal(context.next->entities.state[row], ENTITY_WRECK);
-    double harm = context.next->entities.harm_j[row];
+    assert_int_equal(context.next->entities.row[row].state, ENTITY_WRECK);
+    double harm = context.next->entities.row[row].harm_j;
     impact_damage_row(&context, row, &impact, -1.0, 9e6, NULL);
-    assert_true(context.next->entities.harm_j[row] == harm);
+    assert_true(context.next->entities.row[row].harm_j == harm);
     assert_int_equal(context.next->head->tally.destroyed, 1);
     assert_int_equal(dent(1)->id, row + 1);
 }

@@ -64,11 +64,11 @@ static void test_row_36_an_impact_passes_through_a_row_of_bodies(void **state)
     fixture_run(&f, 1);
     struct entities e = steps_rows(&f);
     assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 4);
-    assert_true(fabs(e.vx[first]) < 1e-9);
+    assert_true(fabs(e.row[first].vx) < 1e-9);
     for (int i = 0; i < 3; i++)
-        assert_true(fabs(e.vx[row[i]]) < 1e-9);
-    assert_true(fabs(e.vx[row[3]] - 60.0) < 1e-9);
-    assert_true(fabs(e.x[row[3]] - (20036.0 + 0.5)) < 1e-6); /* half the frame was left */
+        assert_true(fabs(e.row[row[i]].vx) < 1e-9);
+    assert_true(fabs(e.row[row[3]].vx - 60.0) < 1e-9);
+    assert_true(fabs(e.row[row[3]].x - (20036.0 + 0.5)) < 1e-6); /* half the frame was left */
 }
 
 static void test_row_36_two_at_once_share_an_impact(void **state)
@@ -82,12 +82,13 @@ static void test_row_36_two_at_once_share_an_impact(void **state)
     struct entities e = steps_rows(&f);
     assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 2);
     assert_true(fabs(collision(0)->toi - 0.5) < 1e-9 && fabs(collision(1)->toi - 0.5) < 1e-9);
-    assert_true(fabs(e.vz[one]) < 1e-9);
-    assert_true(fabs(e.vx[north] - e.vx[south]) < 1e-9 && fabs(e.vz[north] + e.vz[south]) < 1e-9);
-    assert_true(fabs(e.vx[one] + e.vx[north] + e.vx[south] - 60.0) < 1e-9);
+    assert_true(fabs(e.row[one].vz) < 1e-9);
+    assert_true(fabs(e.row[north].vx - e.row[south].vx) < 1e-9 &&
+                fabs(e.row[north].vz + e.row[south].vz) < 1e-9);
+    assert_true(fabs(e.row[one].vx + e.row[north].vx + e.row[south].vx - 60.0) < 1e-9);
     double energy = 0.0;
     for (uint32_t i = 0; i < 3; i++)
-        energy += e.vx[i] * e.vx[i] + e.vz[i] * e.vz[i];
+        energy += e.row[i].vx * e.row[i].vx + e.row[i].vz * e.row[i].vz;
     assert_true(fabs(energy - 3600.0) < 1e-6); /* all of it comes back */
 }
 
@@ -101,9 +102,9 @@ static void test_row_36_a_body_hit_twice_in_a_frame_responds_twice(void **state)
     struct entities e = steps_rows(&f);
     assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 2);
     assert_true(fabs(collision(0)->toi - 0.1) < 1e-9 && fabs(collision(1)->toi - 0.2) < 1e-9);
-    assert_true(fabs(e.vx[one]) < 1e-9 && fabs(e.vx[two]) < 1e-9);
-    assert_true(fabs(e.vx[three] - 200.0) < 1e-9);
-    assert_true(fabs(e.x[three] - (20028.0 + 0.8 * 20.0)) < 1e-6);
+    assert_true(fabs(e.row[one].vx) < 1e-9 && fabs(e.row[two].vx) < 1e-9);
+    assert_true(fabs(e.row[three].vx - 200.0) < 1e-9);
+    assert_true(fabs(e.row[three].x - (20028.0 + 0.8 * 20.0)) < 1e-6);
 }
 
 /* An impact from the side parts two bodies at the moment in which they touch: there is no
@@ -119,8 +120,8 @@ static void test_row_36_bodies_that_part_may_meet_later(void **state)
     put(x - 18.4, z - 4.7, 600.0 * 0.988, 600.0 * 0.15);
     fixture_run(&f, 1);
     struct entities e = steps_rows(&f);
-    assert_true(e.vx[two] > 300.0);
-    assert_true(e.x[two] > e.x[one] + 12.0);
+    assert_true(e.row[two].vx > 300.0);
+    assert_true(e.row[two].x > e.row[one].x + 12.0);
 }
 
 /* Slowed by a bush at the moment in which it strikes a tank, it has struck the tank once. */
@@ -144,7 +145,7 @@ static void test_row_36_a_bush_beside_makes_no_second_collision(void **state)
     assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 2);
     assert_true(fabs(collision(0)->toi - collision(1)->toi) < CONTACT_TIE);
     assert_true(collision(0)->b.fixed != collision(1)->b.fixed);
-    assert_true(e.vx[two] > 10.0 && e.vx[one] < e.vx[two]);
+    assert_true(e.row[two].vx > 10.0 && e.row[one].vx < e.row[two].vx);
 }
 
 /* --- overlaps ----------------------------------------------------------------------------------*/
@@ -161,10 +162,10 @@ static void test_row_46_overlapping_bodies_part_exactly(void **state)
                                                              .velocity = {0, 0, 0}});
     fixture_run(&f, 1);
     struct entities e = steps_rows(&f);
-    assert_true(e.x[heavy] - e.x[light] >= 13.0 - 1e-9);
-    assert_true(e.x[heavy] - e.x[light] < 13.0 + 0.1);
+    assert_true(e.row[heavy].x - e.row[light].x >= 13.0 - 1e-9);
+    assert_true(e.row[heavy].x - e.row[light].x < 13.0 + 0.1);
     /* 3 m, the light one four times as far. */
-    double pushed = e.x[heavy] - 20010.0, way = 0.2 / 60.0; /* both go on at 0.2 m/s */
+    double pushed = e.row[heavy].x - 20010.0, way = 0.2 / 60.0; /* both go on at 0.2 m/s */
     assert_true(fabs(pushed - 0.6 - way) < 1e-6);
 }
 
@@ -183,7 +184,7 @@ static void bounce_and_part(const char *kind, double height_m, double apart_m, d
                                 .velocity = {n == 0 ? 3.0 : -3.0}});
     fixture_run(&f, 1);
     struct entities e = steps_rows(&f);
-    e.x[row[1]] -= steps_gap(&f, &e, row[0], row[1]) + deep_m;
+    e.row[row[1]].x -= steps_gap(&f, &e, row[0], row[1]) + deep_m;
     fixture_forget_copies(&f);
     const struct vec3 before[2] = {entities_position(&e, row[0]), entities_position(&e, row[1])};
     fixture_run(&f, 1);
@@ -220,7 +221,7 @@ static void test_a_vehicle_turning_in_place_meets_its_neighbour(void **state)
         fixture_put(&f, (struct fixture_entity){.kind = "truck", .at = {20000.0, 100.0, 20000.0}});
     fixture_put(&f, (struct fixture_entity){.kind = "truck", .at = {20003.0, 100.0, 20000.0}});
     struct entities e = steps_rows(&f);
-    e.spin_y[truck] = -6.0; /* both look north; it turns to the right */
+    e.row[truck].spin_y = -6.0; /* both look north; it turns to the right */
     fixture_run(&f, 30);
     assert_true(fixture_event_count(&f, EVENT_COLLISION) >= 1);
     assert_true(steps_speed(&f, 1) > 0.0); /* pushed aside */
@@ -315,8 +316,8 @@ static void test_row_43_a_spring_returns_speed_by_restitution(void **state)
     uint32_t one = put(20000.0 - 12.5, 20000.0, 60.0, 0.0), two = put(20000.0, 20000.0, 0.0, 0.0);
     fixture_run(&f, 1);
     struct entities e = steps_rows(&f);
-    assert_true(fabs(e.vx[one] + e.vx[two] - 60.0) < 1e-9);
-    assert_true(fabs(e.vx[two] - e.vx[one] - 30.0) < 1e-9);
+    assert_true(fabs(e.row[one].vx + e.row[two].vx - 60.0) < 1e-9);
+    assert_true(fabs(e.row[two].vx - e.row[one].vx - 30.0) < 1e-9);
     const struct contact_spring spring = {
         .reduced_kg = 0.5 * kind->mass_kg,
         .closing_mps = 60.0,

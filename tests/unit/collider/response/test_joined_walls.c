@@ -123,7 +123,7 @@ static void test_a_joined_wall_is_held_by_its_neighbours(void **state)
     (void)state;
     uint32_t row = ram(1, speed_for(1.3e6));
     assert_int_equal(damage_of(1), DAMAGE_MED);
-    assert_true(steps_rows(&f).vz[row] >= 0.0); /* it was stopped */
+    assert_true(steps_rows(&f).row[row].vz >= 0.0); /* it was stopped */
 }
 
 static void test_neighbours_of_what_breaks_take_no_more_than_breaking_takes(void **state)

@@ -41,13 +41,13 @@ static uint32_t put(const char *kind, double x, double y)
                                                            .velocity = {6.0 / DT_S, 0.0, 0.0}});
     steps_respond(&f, &context);
     context.path[row].along.x = 6.0;
-    context.next->entities.x[row] += 6.0;
+    context.next->entities.row[row].x += 6.0;
     return row;
 }
 
 static double x_of(uint32_t row)
 {
-    return context.next->entities.x[row];
+    return context.next->entities.row[row].x;
 }
 
 static void test_who_stays_ends_where_it_was_struck(void **state)
@@ -56,7 +56,7 @@ static void test_who_stays_ends_where_it_was_struck(void **state)
     uint32_t row = put("helicopter", 25000.0, 900.0);
     path_change_stay(&context, row, 0.25, (struct vec3){3.0, 0.0, 0.0});
     assert_true(fabs(x_of(row) - 25001.5) < 1e-9);
-    assert_true(context.next->entities.vx[row] == 3.0);
+    assert_true(context.next->entities.row[row].vx == 3.0);
     assert_true(context.path[row].since == 0.25 && pair_filter_rests(&context.path[row]));
 }
 
@@ -66,7 +66,7 @@ static void test_who_is_slowed_goes_on_at_its_share(void **state)
     uint32_t row = put("helicopter", 25000.0, 900.0);
     path_change_slow(&context, row, 0.5, 0.5);
     assert_true(fabs(x_of(row) - 25004.5) < 1e-9);
-    assert_true(fabs(context.next->entities.vx[row] - 3.0 / DT_S) < 1e-9);
+    assert_true(fabs(context.next->entities.row[row].vx - 3.0 / DT_S) < 1e-9);
 }
 
 static void test_who_leaves_takes_velocity_and_spin_along(void **state)
@@ -76,12 +76,13 @@ static void test_who_leaves_takes_velocity_and_spin_along(void **state)
     struct vec3 at = {25002.0, 900.0, 25000.0}, velocity = {0.0, 0.0, 60.0};
     path_change_leave(&context, row, 0.5, at, velocity, (struct vec3){0.0, -6.0, 0.0}, false);
     const struct entities *e = &context.next->entities;
-    assert_true(fabs(e->x[row] - 25002.0) < 1e-9 && fabs(e->z[row] - 25000.5) < 1e-9);
+    assert_true(fabs(e->row[row].x - 25002.0) < 1e-9 && fabs(e->row[row].z - 25000.5) < 1e-9);
     /* Half of the frame at 6 rad/s to the right. */
-    assert_true(fabs(maths_wrap_half(e->heading[row] - HALF_PI) - 3.0 * DT_S) < 1e-9);
-    assert_true(fabs(e->spin_y[row] + 6.0) < 1e-9);
+    assert_true(fabs(maths_wrap_half(e->row[row].heading - HALF_PI) - 3.0 * DT_S) < 1e-9);
+    assert_true(fabs(e->row[row].spin_y + 6.0) < 1e-9);
     path_change_leave(&context, row, 0.5, at, velocity, none, true);
-    assert_true(e->z[row] == 25000.0 && e->vz[row] == 60.0); /* stays, and takes it with it */
+    assert_true(e->row[row].z == 25000.0 &&
+                e->row[row].vz == 60.0); /* stays, and takes it with it */
 }
 
 /* The weight does no work on a wreck that stays, and on another one no more than its fall. */
@@ -91,22 +92,22 @@ static void test_a_falling_wreck_gains_no_energy(void **state)
     uint32_t row = put("helicopter", 25000.0, 900.0);
     struct entities *e = &context.next->entities;
     double fall = GRAVITY_MPS2 * DT_S;
-    steps_rows(&f).state[row] = e->state[row] = ENTITY_WRECK;
-    const struct mat3 axes = rotation_matrix(rotation_of(e->heading[row], 0.0, 0.0));
+    steps_rows(&f).row[row].state = e->row[row].state = ENTITY_WRECK;
+    const struct mat3 axes = rotation_matrix(rotation_of(e->row[row].heading, 0.0, 0.0));
     entities_set_velocity(
         e, row,
         wreck_drag_slow(steps_kind(&f, "helicopter"), &axes, entities_velocity(e, row), DT_S));
-    e->vy[row] -= fall;
+    e->row[row].vy -= fall;
     struct vec3 at = {25001.5, 900.0, 25000.0},
                 velocity = path_change_velocity(&context, row, 0.25);
-    assert_true(fabs(velocity.y - (e->vy[row] + 0.75 * fall)) < 1e-12);
+    assert_true(fabs(velocity.y - (e->row[row].vy + 0.75 * fall)) < 1e-12);
     velocity.y = -5.0;
     path_change_leave(&context, row, 0.25, at, velocity, none, false);
-    assert_true(fabs(e->vy[row] - (-5.0 - 0.75 * fall)) < 1e-12);
-    double before = 12.5, after = 0.5 * e->vy[row] * e->vy[row];
-    assert_true(fabs(after - before - GRAVITY_MPS2 * (900.0 - e->y[row])) < 1e-9);
+    assert_true(fabs(e->row[row].vy - (-5.0 - 0.75 * fall)) < 1e-12);
+    double before = 12.5, after = 0.5 * e->row[row].vy * e->row[row].vy;
+    assert_true(fabs(after - before - GRAVITY_MPS2 * (900.0 - e->row[row].y)) < 1e-9);
     path_change_leave(&context, row, 0.5, at, velocity, none, true);
-    assert_true(e->vy[row] == -5.0 && e->y[row] == 900.0);
+    assert_true(e->row[row].vy == -5.0 && e->row[row].y == 900.0);
 }
 
 /* Row 17 and the mover know nothing outside: no answer may push a body there. */
@@ -120,7 +121,7 @@ static void test_no_body_is_pushed_out_of_the_world(void **state)
         struct vec3 at = {-0.5, 900.0, WORLD_SIDE_DEFAULT_M + 0.5}; /* parted from another */
         path_change_leave(&context, row, times[i], at, out, none, i == 2);
         assert_true(x_of(row) >= 0.0 && x_of(row) <= WORLD_SIDE_DEFAULT_M);
-        assert_true(context.next->entities.z[row] <= WORLD_SIDE_DEFAULT_M);
+        assert_true(context.next->entities.row[row].z <= WORLD_SIDE_DEFAULT_M);
     }
 }
 
@@ -135,29 +136,29 @@ static void test_what_the_ground_holds(void **state)
     assert_false(path_change_grounded(&context, jet));
     /* A wreck in any pose whose lowest point is on the ground, and that is slow. */
     double half = 0.5 * steps_kind(&f, "jet")->width_m;
-    e->state[jet] = ENTITY_WRECK;
-    e->roll[jet] = HALF_PI;
-    e->vx[jet] = 0.0;
+    e->row[jet].state = ENTITY_WRECK;
+    e->row[jet].roll = HALF_PI;
+    e->row[jet].vx = 0.0;
     assert_false(path_change_grounded(&context, jet)); /* it still falls */
-    e->y[jet] = FIXTURE_GROUND_M + half + 0.04;
+    e->row[jet].y = FIXTURE_GROUND_M + half + 0.04;
     assert_true(path_change_grounded(&context, jet));
-    e->y[jet] = FIXTURE_GROUND_M + half + 0.06;
+    e->row[jet].y = FIXTURE_GROUND_M + half + 0.06;
     assert_false(path_change_grounded(&context, jet));
-    e->y[jet] = FIXTURE_GROUND_M + half;
-    e->vx[jet] = 30.0;
+    e->row[jet].y = FIXTURE_GROUND_M + half;
+    e->row[jet].vx = 30.0;
     assert_true(path_change_grounded(&context, jet)); /* it slides */
-    e->vy[jet] = -3.0;
+    e->row[jet].vy = -3.0;
     assert_false(path_change_grounded(&context, jet)); /* it falls */
-    e->vx[jet] = e->vy[jet] = 0.0;
-    e->spin_z[jet] = 1.5;
+    e->row[jet].vx = e->row[jet].vy = 0.0;
+    e->row[jet].spin_z = 1.5;
     assert_false(path_change_grounded(&context, jet)); /* it rolls over */
-    e->spin_z[jet] = 0.0;
-    e->spin_y[jet] = 0.5;
-    e->heading[jet] += 1.0; /* no driver has turned it so */
+    e->row[jet].spin_z = 0.0;
+    e->row[jet].spin_y = 0.5;
+    e->row[jet].heading += 1.0; /* no driver has turned it so */
     assert_true(path_change_spin(&context, jet, 0.5).y == 0.5);
     /* Its driver's steering counts until an answer has turned it otherwise. */
-    e->spin_x[tank] = e->spin_z[tank] = 1.0;
-    e->heading[tank] += 0.01;
+    e->row[tank].spin_x = e->row[tank].spin_z = 1.0;
+    e->row[tank].heading += 0.01;
     struct vec3 spin = path_change_spin(&context, tank, 0.5);
     assert_true(spin.x == 0.0 && spin.z == 0.0 && fabs(spin.y + 0.01 / DT_S) < 1e-9);
 }
@@ -170,22 +171,23 @@ static void test_a_displaced_wreck_is_awake(void **state)
     struct entities *e = &context.next->entities;
     struct vec3 at = entities_position(e, row);
     context.path[row] = (struct path){.at = at};
-    e->state[row] = ENTITY_WRECK;
-    e->until_tick[row] = 7;
+    e->row[row].state = ENTITY_WRECK;
+    e->row[row].until_tick = 7;
     path_change_leave(&context, row, 0.5, at, none, none, false);
-    assert_int_equal(e->until_tick[row], 7);
+    assert_int_equal(e->row[row].until_tick, 7);
     at.x += 0.01;
     path_change_leave(&context, row, 0.5, at, none, none, false);
-    assert_int_equal(e->until_tick[row], 0);
+    assert_int_equal(e->row[row].until_tick, 0);
 }
 
 /* Returns the velocity of a tank's centre of mass. */
 static struct vec3 centre_velocity(uint32_t row)
 {
     const struct entities *e = &context.next->entities;
-    struct mat3 axes = rotation_matrix(rotation_of(e->heading[row], e->pitch[row], e->roll[row]));
+    struct mat3 axes =
+        rotation_matrix(rotation_of(e->row[row].heading, e->row[row].pitch, e->row[row].roll));
     struct vec3 up = {0.0, mass_properties_of(steps_kind(&f, "tank")).centre_m, 0.0};
-    struct vec3 spin = {e->spin_x[row], e->spin_y[row], e->spin_z[row]};
+    struct vec3 spin = {e->row[row].spin_x, e->row[row].spin_y, e->row[row].spin_z};
     return vec3_add(entities_velocity(e, row), vec3_cross(spin, rotation_apply(&axes, up)));
 }
 
@@ -196,11 +198,11 @@ static void test_a_pushed_wreck_gains_no_speed(void **state)
     (void)state;
     uint32_t row = put("tank", 25000.0, FIXTURE_GROUND_M);
     struct entities *e = &context.next->entities;
-    e->state[row] = ENTITY_WRECK;
-    e->vx[row] = 10.0;
-    e->spin_x[row] = 0.3;
-    e->spin_y[row] = 0.2;
-    e->spin_z[row] = -0.4;
+    e->row[row].state = ENTITY_WRECK;
+    e->row[row].vx = 10.0;
+    e->row[row].spin_x = 0.3;
+    e->row[row].spin_y = 0.2;
+    e->row[row].spin_z = -0.4;
     assert_true(path_change_grounded(&context, row));
     struct vec3 before = centre_velocity(row);
     struct vec3 at = entities_position(e, row);
@@ -208,7 +210,8 @@ static void test_a_pushed_wreck_gains_no_speed(void **state)
                       path_change_spin(&context, row, 0.5), false);
     struct vec3 way = vec3_scale(vec3_sub(entities_position(e, row), at), 2.0 / DT_S);
     assert_true(vec3_length(vec3_sub(way, entities_velocity(e, row))) < 1e-9);
-    assert_true(e->spin_x[row] == 0.0 && e->spin_y[row] == 0.2 && e->spin_z[row] == 0.0);
+    assert_true(e->row[row].spin_x == 0.0 && e->row[row].spin_y == 0.2 &&
+                e->row[row].spin_z == 0.0);
     assert_true(vec3_length(vec3_sub(centre_velocity(row), before)) < 1e-12);
 }
 
@@ -220,12 +223,12 @@ static void test_an_answer_leaves_the_steering_to_the_driver(void **state)
     uint32_t tank = put("tank", 25000.0, FIXTURE_GROUND_M);
     struct entities *e = &context.next->entities;
     struct vec3 at = {25003.0, FIXTURE_GROUND_M, 25000.0};
-    e->heading[tank] += 0.01;
+    e->row[tank].heading += 0.01;
     struct vec3 spin = path_change_spin(&context, tank, 0.5);
     spin.y -= 0.3; /* what an impulse adds, to the right as he steers */
     path_change_leave(&context, tank, 0.5, at, none, spin, false);
-    assert_true(fabs(e->spin_y[tank] + 0.3) < 1e-9);
-    assert_true(fabs(maths_wrap_half(e->heading[tank] - HALF_PI) - 0.01 - 0.15 * DT_S) < 1e-9);
+    assert_true(fabs(e->row[tank].spin_y + 0.3) < 1e-9);
+    assert_true(fabs(maths_wrap_half(e->row[tank].heading - HALF_PI) - 0.01 - 0.15 * DT_S) < 1e-9);
     assert_true(fabs(path_change_spin(&context, tank, 0.5).y - spin.y) < 1e-9);
 }
 
@@ -238,7 +241,7 @@ static void test_a_body_in_the_air_has_its_momentum_at_every_time(void **state)
     struct vec3 at = {25003.0, 900.0, 25000.0}, spin = {20.0, -14.0, 11.0};
     const struct entities *e = &context.next->entities;
     struct vec3 moment = mass_properties_of(steps_kind(&f, "helicopter")).moment;
-    struct quat turned = rotation_of(e->heading[row], e->pitch[row], e->roll[row]);
+    struct quat turned = rotation_of(e->row[row].heading, e->row[row].pitch, e->row[row].roll);
     struct vec3 momentum = free_rotation_momentum(moment, turned, spin);
     double energy = vec3_dot(momentum, spin);
     path_change_leave(&context, row, 0.0, at, none, spin, false);
@@ -249,11 +252,11 @@ static void test_a_body_in_the_air_has_its_momentum_at_every_time(void **state)
         assert_true(vec3_length(vec3_sub(now, momentum)) < 1e-12 * vec3_length(momentum));
         assert_true(fabs(vec3_dot(now, spin) - energy) < 1e-12 * energy);
     }
-    struct vec3 end = {e->spin_x[row], e->spin_y[row], e->spin_z[row]};
+    struct vec3 end = {e->row[row].spin_x, e->row[row].spin_y, e->row[row].spin_z};
     assert_true(vec3_length(vec3_sub(end, spin)) < 1e-12 * vec3_length(spin));
     spin = path_change_spin(&context, row, 0.5);
     path_change_stay(&context, row, 0.5, none);
-    end = (struct vec3){e->spin_x[row], e->spin_y[row], e->spin_z[row]};
+    end = (struct vec3){e->row[row].spin_x, e->row[row].spin_y, e->row[row].spin_z};
     assert_true(vec3_length(vec3_sub(end, spin)) < 1e-12 * vec3_length(spin));
 }
 
@@ -262,7 +265,7 @@ static void test_a_turn_that_parts_bodies_is_no_spin(void **state)
 {
     (void)state;
     uint32_t tank = put("tank", 25000.0, 100.0);
-    context.next->entities.heading[tank] += 0.02;
+    context.next->entities.row[tank].heading += 0.02;
     assert_true(fabs(path_change_spin(&context, tank, 0.5).y + 0.02 / DT_S) < 1e-9);
     context.motion->parting_rps[tank] = -0.02 / DT_S;
     assert_true(fabs(path_change_spin(&context, tank, 0.5).y) < 1e-9);

@@ -101,7 +101,7 @@ static uint32_t events_of(enum damage damage)
     steps_respond(&f, &context);
     const struct impact impact = impact_at(5.0);
     const struct report report = response_report(&context, &impact, IMPACT_WITHIN);
-    context.next->entities.damage[1] = (uint8_t)damage;
+    context.next->entities.row[1].damage = (uint8_t)damage;
     write_collision_event(&context, &report, &impact, &outcome);
     assert_int_equal(context.contacts->impacts[impact.pair - 1].count, 1);
     assert_true(context.contacts->impacts[impact.pair - 1].impulse_ns == 3.0f);

@@ -56,7 +56,7 @@ static enum response meet(double angle_deg, double speed_a, double speed_b)
     response_figure8.moving(&context, &impact, &outcome);
     const struct entities *e = &context.next->entities;
     struct vec3 va = entities_velocity(e, a), vb = entities_velocity(e, b);
-    bool wrecks = e->state[a] == ENTITY_WRECK && e->state[b] == ENTITY_WRECK;
+    bool wrecks = e->row[a].state == ENTITY_WRECK && e->row[b].state == ENTITY_WRECK;
     switch (outcome.response) {
     case RESPONSE_DESTROYED:
         assert_true(wrecks && vec3_length(va) == 0.0 && vec3_length(vb) == 0.0);
@@ -157,8 +157,8 @@ static struct meeting mixed(double angle_deg, double speed_tank, double speed_je
     struct meeting met = {.response = outcome.response,
                           .speed_tank = vec3_length(entities_velocity(e, tank)),
                           .speed_jeep = vec3_length(entities_velocity(e, jeep)),
-                          .harm_jeep = e->harm_j[jeep],
-                          .damage_jeep = (enum damage)e->damage[jeep]};
+                          .harm_jeep = e->row[jeep].harm_j,
+                          .damage_jeep = (enum damage)e->row[jeep].damage};
     steps_respond_end(&context);
     return met;
 }
@@ -243,11 +243,11 @@ static void test_row_30_the_larger_mass_hurts_the_smaller_more(void **state)
         response_figure8.moving(&context, &impact, &outcome);
         const struct entities *e = &context.next->entities;
         if (mass > 1000.0)
-            assert_true(e->harm_j[jeep] > e->harm_j[tank]);
+            assert_true(e->row[jeep].harm_j > e->row[tank].harm_j);
         if (mass < 1000.0)
-            assert_true(e->harm_j[jeep] < e->harm_j[tank]);
-        assert_true(e->harm_j[jeep] > before);
-        before = e->harm_j[jeep];
+            assert_true(e->row[jeep].harm_j < e->row[tank].harm_j);
+        assert_true(e->row[jeep].harm_j > before);
+        before = e->row[jeep].harm_j;
         steps_respond_end(&context);
     }
 }
@@ -278,8 +278,8 @@ static struct aftermath strike(uint32_t object, double mass_kg, double speed_mps
     response_figure8.fixed(&context, &impact, &outcome);
     const struct entities *e = &context.next->entities;
     struct aftermath struck = {outcome.response, (enum damage)context.next->fixed_damage[object],
-                               (enum entity_state)e->state[row],
-                               vec3_length(entities_velocity(e, row)), e->harm_j[row]};
+                               (enum entity_state)e->row[row].state,
+                               vec3_length(entities_velocity(e, row)), e->row[row].harm_j};
     steps_respond_end(&context);
     return struck;
 }
@@ -406,7 +406,7 @@ static void test_row_32_a_vehicle_passes_through_the_tree_that_it_struck(void **
     uint32_t row = put("tank", 24980.0, 25000.0, (struct vec3){6.0, 0, 0});
     (void)state;
     fixture_run(&f, 500);
-    assert_true(steps_rows(&f).x[row] > 25010.0);
+    assert_true(steps_rows(&f).row[row].x > 25010.0);
     assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 1); /* reported once */
     assert_int_equal(fixture_event(&f, EVENT_COLLISION, 0)->collision.response, RESPONSE_SLOW);
     assert_int_equal(fixture_event(&f, EVENT_COLLISION, 0)->collision.b.fixed, 1);
@@ -423,7 +423,7 @@ static void test_one_passing_of_a_tree_is_told_once(void **state)
                                             .at = {24990.0, FIXTURE_GROUND_M, 25000.3},
                                             .velocity = {3.5, 0.0, 0.0}});
     fixture_run(&f, 600);
-    assert_true(steps_rows(&f).x[0] > 25010.0);
+    assert_true(steps_rows(&f).row[0].x > 25010.0);
     assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 1);
 }
 

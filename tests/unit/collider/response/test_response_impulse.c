@@ -40,7 +40,7 @@ static uint32_t put(const char *kind, double x, double z, double heading_deg, do
 
 static enum damage damage_of(uint32_t row)
 {
-    return (enum damage)steps_rows(&f).damage[row];
+    return (enum damage)steps_rows(&f).row[row].damage;
 }
 
 /* Two tanks whose paths cross at this angle; off_m: how much later the second is there. */
@@ -58,7 +58,7 @@ static void cross(double mph, double angle_deg, double off_m, uint32_t row[2])
 /* Returns how many of the world's first collisions damage a tank highly, counted from the first. */
 static uint32_t impacts_to_high(uint32_t row)
 {
-    uint32_t id = steps_rows(&f).id[row];
+    uint32_t id = steps_rows(&f).row[row].id;
     for (uint32_t n = 0; n < fixture_event_count(&f, EVENT_COLLISION); n++) {
         const struct event_collision *told = &fixture_event(&f, EVENT_COLLISION, n)->collision;
         if ((told->a.id == id && told->a.damage == DAMAGE_HIGH) ||
@@ -85,7 +85,7 @@ static void test_two_tanks_at_20_mph_and_a_severe_angle_are_highly_damaged(void 
                 assert_int_equal(first->collision.a.damage, DAMAGE_HIGH);
             for (int n = 0; n < 2; n++) {
                 assert_int_equal(damage_of(row[n]), DAMAGE_HIGH);
-                assert_int_equal(steps_rows(&f).state[row[n]], ENTITY_ACTIVE);
+                assert_int_equal(steps_rows(&f).row[row[n]].state, ENTITY_ACTIVE);
                 uint32_t impacts = impacts_to_high(row[n]);
                 tanks++;
                 by_two += impacts == 2;
@@ -105,7 +105,7 @@ static double deepest_dent(uint32_t row)
     struct state now = fixture_state(&f);
     double deepest = 0.0;
     for (uint32_t n = 0; n < now.head->dent_count; n++) {
-        if (now.dents[n].id == now.entities.id[row])
+        if (now.dents[n].id == now.entities.row[row].id)
             deepest = maths_max(deepest, (double)now.dents[n].plastic_m);
     }
     return deepest;
@@ -149,8 +149,8 @@ static void test_a_tank_at_40_mph_destroys_a_stopped_jeep(void **state)
         uint32_t tank = put("tank", -12.0, 0.0, 90.0, 40.0);
         uint32_t jeep = put("jeep", 0.0, 0.0, heading, 0.0);
         fixture_run(&f, 60);
-        assert_int_equal(steps_rows(&f).state[jeep], ENTITY_WRECK);
-        assert_int_equal(steps_rows(&f).state[tank], ENTITY_ACTIVE);
+        assert_int_equal(steps_rows(&f).row[jeep].state, ENTITY_WRECK);
+        assert_int_equal(steps_rows(&f).row[tank].state, ENTITY_ACTIVE);
         assert_in_range(damage_of(tank), DAMAGE_NONE, DAMAGE_LOW);
     }
 }
@@ -165,7 +165,7 @@ static void test_a_fast_tank_leaves_a_stump_and_goes_on(void **state)
     uint32_t tank = put("tank", -12.0, 0.0, 90.0, 35.0);
     fixture_run(&f, 120);
     assert_int_equal(fallen_damage(fixture_state(&f).fixed_damage[0]), DAMAGE_HIGH);
-    assert_true(steps_rows(&f).vx[tank] > 10.0);
+    assert_true(steps_rows(&f).row[tank].vx > 10.0);
     assert_in_range(damage_of(tank), DAMAGE_NONE, DAMAGE_LOW);
 }
 

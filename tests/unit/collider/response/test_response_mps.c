@@ -37,11 +37,11 @@ static void test_row_42_platforms_that_meet_are_both_destroyed(void **state)
         response_mps.moving(&context, &impact, &outcome);
         const struct entities *e = &context.next->entities;
         assert_int_equal(outcome.response, RESPONSE_DESTROYED);
-        assert_int_equal(e->state[ship], ENTITY_WRECK);
-        assert_int_equal(e->state[jeep], ENTITY_WRECK);
+        assert_int_equal(e->row[ship].state, ENTITY_WRECK);
+        assert_int_equal(e->row[jeep].state, ENTITY_WRECK);
         assert_true(vec3_length(entities_velocity(e, ship)) == 0.0);
         assert_true(vec3_length(entities_velocity(e, jeep)) == 0.0);
-        assert_true(e->x[ship] == 20000.0 && e->x[jeep] == 20050.0);
+        assert_true(e->row[ship].x == 20000.0 && e->row[jeep].x == 20050.0);
         assert_int_equal(context.next->head->tally.destroyed, 2);
         steps_respond_end(&context);
     }

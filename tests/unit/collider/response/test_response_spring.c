@@ -40,7 +40,8 @@ static struct outcome_of_crash crash(double rigidity, double moldability)
                                             .velocity = {-6.0, 0.0, 0.0}});
     fixture_run(&f, 1);
     struct state now = fixture_state(&f);
-    struct outcome_of_crash crash = {now.entities.vx[first], now.entities.harm_j[first], 0.0, 0.0};
+    struct outcome_of_crash crash = {now.entities.row[first].vx, now.entities.row[first].harm_j,
+                                     0.0, 0.0};
     if (now.head->dent_count == 2) {
         crash.plastic_m = (double)now.dents[0].plastic_m;
         crash.elastic_m = (double)now.dents[0].elastic_m;

@@ -45,8 +45,8 @@ static int close_world(void **state)
 static struct persistent_contact *press(uint32_t a, uint32_t b)
 {
     struct state now = fixture_state(&f);
-    const uint32_t *id = now.entities.id;
-    bool fixed = b & PERSISTENT_CONTACT_FIXED, swap = !fixed && id[b] < id[a];
+    const struct entity *row = now.entities.row;
+    bool fixed = b & PERSISTENT_CONTACT_FIXED, swap = !fixed && row[b].id < row[a].id;
     struct persistent_contact *contact = &now.contacts[now.head->contact_count++];
     *contact = (struct persistent_contact){.a_row = swap ? b : a,
                                            .b_row = fixed  ? SLOT_NONE
@@ -54,8 +54,8 @@ static struct persistent_contact *press(uint32_t a, uint32_t b)
                                                            : b,
                                            .begin_tick = 5,
                                            .pressed_tick = 9};
-    contact->a_id = id[contact->a_row];
-    contact->b_id = fixed ? b : id[contact->b_row];
+    contact->a_id = row[contact->a_row].id;
+    contact->b_id = fixed ? b : row[contact->b_row].id;
     return contact;
 }
 
@@ -69,7 +69,7 @@ static void press_chains(void)
 
 static void move(uint32_t row)
 {
-    context.next->entities.x[row] += 0.25;
+    context.next->entities.row[row].x += 0.25;
     body_motion_compute(context.motion, row);
 }
 
@@ -114,7 +114,7 @@ static void test_the_paths_of_all_rows_are_computed(void **state)
     press_chains();
     steps_respond(&f, &context);
     memset(context.motion->computed, 0, ROWS * sizeof *context.motion->computed);
-    context.next->entities.x[4] += 0.25;
+    context.next->entities.row[4].x += 0.25;
     contact_groups_find(groups, &context);
     assert_int_equal(groups->count, 1);
     assert_true(context.motion->computed[4] && context.motion->computed[5]);
@@ -179,7 +179,7 @@ static void test_an_overlap_wakes_its_group(void **state)
 static void test_an_overlap_wakes_a_group_in_reused_rows(void **state)
 {
     (void)state;
-    steps_rows(&f).id[0] = 50;
+    steps_rows(&f).row[0].id = 50;
     press(0, 1)->flags = PERSISTENT_CONTACT_OVERLAPS;
     steps_respond(&f, &context);
     contact_groups_find(groups, &context);
@@ -194,11 +194,11 @@ static void test_an_overlap_wakes_a_group_in_reused_rows(void **state)
 static void tilt(double spin_rps)
 {
     press(0, 1)->flags = PERSISTENT_CONTACT_HOLDS;
-    steps_rows(&f).flags[1] |= ENTITY_FLAG_CHASSIS;
+    steps_rows(&f).row[1].flags |= ENTITY_FLAG_CHASSIS;
     steps_respond(&f, &context);
-    context.next->entities.roll[1] += spin_rps * world_dt_s(context.world);
-    context.next->entities.spin_x[1] = spin_rps;
-    context.next->entities.x[1] += 1e-5;
+    context.next->entities.row[1].roll += spin_rps * world_dt_s(context.world);
+    context.next->entities.row[1].spin_x = spin_rps;
+    context.next->entities.row[1].x += 1e-5;
     body_motion_compute(context.motion, 1);
 }
 
@@ -208,9 +208,9 @@ static void test_a_group_that_its_contacts_hold_sleeps(void **state)
     tilt(0.02);
     contact_groups_find(groups, &context);
     assert_int_equal(groups->count, 0);
-    assert_true(context.next->entities.roll[1] == steps_rows(&f).roll[1]);
-    assert_true(context.next->entities.x[1] == steps_rows(&f).x[1]);
-    assert_true(context.next->entities.spin_x[1] == 0.0);
+    assert_true(context.next->entities.row[1].roll == steps_rows(&f).row[1].roll);
+    assert_true(context.next->entities.row[1].x == steps_rows(&f).row[1].x);
+    assert_true(context.next->entities.row[1].spin_x == 0.0);
     assert_false(body_motion_moves(context.motion, 1));
 }
 
@@ -218,14 +218,14 @@ static void assert_wakes(void)
 {
     contact_groups_find(groups, &context);
     assert_int_equal(groups->count, 1);
-    assert_true(context.next->entities.spin_x[1] != 0.0);
+    assert_true(context.next->entities.row[1].spin_x != 0.0);
 }
 
 static void test_a_held_body_that_falls_wakes_its_group(void **state)
 {
     (void)state;
     tilt(0.02);
-    context.next->entities.vy[1] = -9.8 * world_dt_s(context.world);
+    context.next->entities.row[1].vy = -9.8 * world_dt_s(context.world);
     assert_wakes();
 }
 
@@ -233,7 +233,7 @@ static void test_a_held_body_that_is_driven_wakes_its_group(void **state)
 {
     (void)state;
     tilt(0.02);
-    context.next->entities.vz[1] = -1.0 * world_dt_s(context.world);
+    context.next->entities.row[1].vz = -1.0 * world_dt_s(context.world);
     assert_wakes();
 }
 
@@ -272,11 +272,11 @@ static void test_bodies_that_are_gone_are_left_out(void **state)
     move(0);
     move(2);
     move(6);
-    context.next->entities.state[1] = ENTITY_FREE;
+    context.next->entities.row[1].state = ENTITY_FREE;
     context.next->fixed_damage[0] = DAMAGE_HIGH;
     contact_groups_find(groups, &context);
     assert_int_equal(groups->count, 0);
-    context.next->entities.state[1] = ENTITY_ACTIVE;
+    context.next->entities.row[1].state = ENTITY_ACTIVE;
     context.next->fixed_damage[0] = DAMAGE_NONE;
     contact_groups_find(groups, &context);
     assert_int_equal(groups->count, 3);
@@ -301,7 +301,7 @@ static void test_bodies_in_the_air_are_left_out(void **state)
 {
     (void)state;
     press_chains();
-    steps_rows(&f).kind[2] = fixture_kind(&f, "helicopter");
+    steps_rows(&f).row[2].kind = fixture_kind(&f, "helicopter");
     steps_respond(&f, &context);
     move(2);
     contact_groups_find(groups, &context);
@@ -314,13 +314,13 @@ static void test_bodies_in_the_air_are_left_out(void **state)
 static void test_a_new_body_that_overlaps_is_found(void **state)
 {
     (void)state;
-    steps_rows(&f).x[3] = 25041.0;
+    steps_rows(&f).row[3].x = 25041.0;
     steps_respond(&f, &context);
     contact_groups_find(groups, &context);
     assert_int_equal(groups->count, 0); /* an old one is not */
     steps_respond_end(&context);
     steps_respond(&f, &context);
-    context.next->entities.id[3] = 90;
+    steps_replace(&f, &context, 3, 90);
     contact_groups_find(groups, &context);
     assert_int_equal(groups->known, 0);
     assert_int_equal(groups->count, 1);
@@ -330,12 +330,12 @@ static void test_a_new_body_that_overlaps_is_found(void **state)
 static void test_two_new_bodies_are_one_pair(void **state)
 {
     (void)state;
-    steps_rows(&f).x[3] = 25041.0;
+    steps_rows(&f).row[3].x = 25041.0;
     press(0, 1);
     steps_respond(&f, &context);
     move(0);
-    context.next->entities.id[2] = 91;
-    context.next->entities.id[3] = 90;
+    steps_replace(&f, &context, 2, 91);
+    steps_replace(&f, &context, 3, 90);
     contact_groups_find(groups, &context);
     assert_int_equal(groups->known, 1);
     assert_int_equal(groups->count, 2);
@@ -347,9 +347,9 @@ static void test_two_new_bodies_are_one_pair(void **state)
 static void make_wreck(uint32_t row, double up_m)
 {
     struct entities e = steps_rows(&f);
-    e.state[row] = ENTITY_WRECK;
-    e.y[row] += up_m;
-    e.until_tick[row] = 3; /* at rest */
+    e.row[row].state = ENTITY_WRECK;
+    e.row[row].y += up_m;
+    e.row[row].until_tick = 3; /* at rest */
 }
 
 static void test_a_wreck_above_the_ground_is_free(void **state)
@@ -376,12 +376,12 @@ static void test_a_wreck_that_rocks_is_free(void **state)
     steps_respond(&f, &context);
     const struct entities *e = &context.next->entities;
     assert_false(contact_groups_is_free(&context, 1));
-    e->vx[1] = 3.0; /* it slides */
+    e->row[1].vx = 3.0; /* it slides */
     assert_false(contact_groups_is_free(&context, 1));
-    e->vy[1] = 0.06;
+    e->row[1].vy = 0.06;
     assert_true(contact_groups_is_free(&context, 1));
-    e->vy[1] = 0.0;
-    context.motion->before.spin_x[1] = e->spin_x[1] = 0.02; /* its ends: 7 cm/s */
+    e->row[1].vy = 0.0;
+    context.motion->before.row[1].spin_x = e->row[1].spin_x = 0.02; /* its ends: 7 cm/s */
     assert_true(contact_groups_is_free(&context, 1));
 }
 
@@ -392,10 +392,10 @@ static void test_a_wreck_wakes_when_what_it_leans_on_is_gone(void **state)
     press(0, 1);
     steps_respond(&f, &context);
     contact_groups_find_free(groups, &context);
-    assert_int_equal(context.next->entities.until_tick[1], 3);
-    context.next->entities.state[0] = ENTITY_FREE;
+    assert_int_equal(context.next->entities.row[1].until_tick, 3);
+    context.next->entities.row[0].state = ENTITY_FREE;
     contact_groups_find_free(groups, &context);
-    assert_int_equal(context.next->entities.until_tick[1], 0);
+    assert_int_equal(context.next->entities.row[1].until_tick, 0);
     assert_int_equal(groups->count, 0);
 }
 

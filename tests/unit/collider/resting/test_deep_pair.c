@@ -84,7 +84,7 @@ static bool deep(const char *kind, const double x[2], const double z[2], const d
                                                 .at = {x[n], FIXTURE_GROUND_M, z[n]},
                                                 .heading_rad = heading[n]});
     steps_respond(&f, &context);
-    context.next->entities.heading[1] = turned;
+    context.next->entities.row[1].heading = turned;
     bool are = measure(&context, &found);
     steps_respond_end(&context);
     fixture_close(&f);
@@ -140,7 +140,7 @@ static void test_bodies_on_a_slope_are_deep(void **state)
         fixture_continue(&f, 1); /* the ground turns them */
         steps_respond(&f, &context);
         const struct entities e = steps_rows(&f);
-        assert_true(cos(e.pitch[0]) * cos(e.roll[0]) < 0.94);
+        assert_true(cos(e.row[0].pitch) * cos(e.row[0].roll) < 0.94);
         assert_true(measure(&context, &found));
         assert_true(found.gap[0].gap_m < -1.5);
         steps_respond_end(&context);

@@ -31,18 +31,19 @@ static int open_world(void **state)
                                                     .at = at,
                                                     .velocity = {30.0 + 10.0 * i, 1.0, -2.0}});
         struct entities e = steps_rows(&f);
-        e.spin_x[row] = 1.5, e.spin_y[row] = -0.7 - i, e.spin_z[row] = 0.3;
+        e.row[row].spin_x = 1.5, e.row[row].spin_y = -0.7 - i, e.row[row].spin_z = 0.3;
     }
     steps_respond(&f, &context);
     for (uint32_t i = 0; i < ROWS; i++) { /* as the mover moves them */
         struct entities *e = &context.next->entities;
-        struct quat turn = rotation_of(e->heading[i], e->pitch[i], e->roll[i]);
-        struct vec3 spin = {e->spin_x[i], e->spin_y[i], e->spin_z[i]};
+        struct quat turn = rotation_of(e->row[i].heading, e->row[i].pitch, e->row[i].roll);
+        struct vec3 spin = {e->row[i].spin_x, e->row[i].spin_y, e->row[i].spin_z};
         free_rotation_turn(mass_properties_of(steps_kind(&f, "helicopter")).moment, &turn, &spin,
                            1.0 / 60.0);
-        rotation_angles(turn, &e->heading[i], &e->pitch[i], &e->roll[i]);
-        e->x[i] += e->vx[i] / 60.0, e->y[i] += e->vy[i] / 60.0, e->z[i] += e->vz[i] / 60.0;
-        e->spin_x[i] = spin.x, e->spin_y[i] = spin.y, e->spin_z[i] = spin.z;
+        rotation_angles(turn, &e->row[i].heading, &e->row[i].pitch, &e->row[i].roll);
+        e->row[i].x += e->row[i].vx / 60.0, e->row[i].y += e->row[i].vy / 60.0,
+            e->row[i].z += e->row[i].vz / 60.0;
+        e->row[i].spin_x = spin.x, e->row[i].spin_y = spin.y, e->row[i].spin_z = spin.z;
         body_motion_compute(context.motion, i);
     }
     return 0;
@@ -70,8 +71,9 @@ static struct sums sums_of(void)
     struct vec3 centre =
         vec3_scale(vec3_add(entities_position(e, 0), entities_position(e, 1)), 1.0 / ROWS);
     for (uint32_t i = 0; i < ROWS; i++) {
-        struct quat turn = rotation_of(e->heading[i], e->pitch[i], e->roll[i]);
-        struct vec3 spin = {e->spin_x[i], e->spin_y[i], e->spin_z[i]}, v = entities_velocity(e, i);
+        struct quat turn = rotation_of(e->row[i].heading, e->row[i].pitch, e->row[i].roll);
+        struct vec3 spin = {e->row[i].spin_x, e->row[i].spin_y, e->row[i].spin_z},
+                    v = entities_velocity(e, i);
         struct vec3 own = free_rotation_momentum(mass.moment, turn, spin);
         struct vec3 momentum = vec3_scale(v, mass.mass_kg);
         struct vec3 off = vec3_sub(entities_position(e, i), begin_at);
@@ -94,13 +96,13 @@ static void test_only_aircraft_that_nobody_steers_drift(void **state)
     struct entities *e = &context.next->entities;
     (void)state;
     assert_true(drift_guard_drifts(&context, 0));
-    e->behaviour[0] = BEHAVIOUR_PATROL;
+    e->row[0].behaviour = BEHAVIOUR_PATROL;
     assert_false(drift_guard_drifts(&context, 0));
-    e->behaviour[0] = BEHAVIOUR_HOLD;
-    e->state[0] = ENTITY_WRECK;
+    e->row[0].behaviour = BEHAVIOUR_HOLD;
+    e->row[0].state = ENTITY_WRECK;
     assert_false(drift_guard_drifts(&context, 0));
-    e->state[0] = ENTITY_ACTIVE;
-    e->kind[0] = (uint16_t)(steps_kind(&f, "tank") - f.view.world.kinds);
+    e->row[0].state = ENTITY_ACTIVE;
+    e->row[0].kind = (uint16_t)(steps_kind(&f, "tank") - f.view.world.kinds);
     assert_false(drift_guard_drifts(&context, 0));
 }
 
@@ -111,11 +113,12 @@ static void test_a_body_goes_back_along_its_path(void **state)
     struct vec3 velocity = entities_velocity(e, 0);
     (void)state;
     drift_guard_send_back(&context, 0, 0.25);
-    assert_true(fabs(e->x[0] - begin_at.x - 0.25 * 30.0 / 60.0) < 1e-9);
-    assert_true(e->vx[0] == velocity.x && e->vy[0] == velocity.y && e->vz[0] == velocity.z);
+    assert_true(fabs(e->row[0].x - begin_at.x - 0.25 * 30.0 / 60.0) < 1e-9);
+    assert_true(e->row[0].vx == velocity.x && e->row[0].vy == velocity.y &&
+                e->row[0].vz == velocity.z);
     same(sums_of().angular, before.angular);
     drift_guard_send_back(&context, 0, 0.0); /* nothing has met: to the begin of its path */
-    assert_true(fabs(e->x[0] - begin_at.x) < 1e-9);
+    assert_true(fabs(e->row[0].x - begin_at.x) < 1e-9);
     same(sums_of().angular, before.angular);
 }
 
@@ -123,20 +126,20 @@ static void test_a_body_goes_back_along_its_path(void **state)
 static void test_a_share_of_another_turn_gains_no_energy(void **state)
 {
     struct entities *e = &context.next->entities;
-    double pitch = e->pitch[0];
+    double pitch = e->row[0].pitch;
     (void)state;
     for (int i = -4; i <= 4; i++) {
-        e->pitch[0] = pitch + 0.01 * i;
+        e->row[0].pitch = pitch + 0.01 * i;
         const struct sums before = sums_of();
         double energy = before.energy;
-        struct vec3 spin = {e->spin_x[0], e->spin_y[0], e->spin_z[0]};
-        double heading = e->heading[0], roll = e->roll[0];
+        struct vec3 spin = {e->row[0].spin_x, e->row[0].spin_y, e->row[0].spin_z};
+        double heading = e->row[0].heading, roll = e->row[0].roll;
         drift_guard_send_back(&context, 0, 0.25);
         same(sums_of().angular, before.angular);
         if (sums_of().energy > energy * (1.0 + 1e-9))
             fail_msg("turned by %g: energy %.17g of %.17g J", 0.01 * i, sums_of().energy, energy);
-        e->heading[0] = heading, e->roll[0] = roll;
-        e->spin_x[0] = spin.x, e->spin_y[0] = spin.y, e->spin_z[0] = spin.z;
+        e->row[0].heading = heading, e->row[0].roll = roll;
+        e->row[0].spin_x = spin.x, e->row[0].spin_y = spin.y, e->row[0].spin_z = spin.z;
     }
 }
 
@@ -151,11 +154,12 @@ static void test_a_share_is_one_of_the_path_since_the_last_impact(void **state)
     path.since = 0.5;
     body_motion_change(context.motion, 0, &path, &rotation);
     drift_guard_send_back(&context, 0, 0.5);
-    assert_true(fabs(e->x[0] - begin_at.x - 0.75 * 30.0 / 60.0) < 1e-9);
+    assert_true(fabs(e->row[0].x - begin_at.x - 0.75 * 30.0 / 60.0) < 1e-9);
     drift_guard_send_back(&context, 0, 0.0);
-    assert_true(fabs(e->x[0] - begin_at.x - 0.5 * 30.0 / 60.0) < 1e-9);
+    assert_true(fabs(e->row[0].x - begin_at.x - 0.5 * 30.0 / 60.0) < 1e-9);
     drift_guard_send_back(&context, 0, -1.0);
-    assert_true(e->x[0] == begin_at.x && e->y[0] == begin_at.y && e->z[0] == begin_at.z);
+    assert_true(e->row[0].x == begin_at.x && e->row[0].y == begin_at.y &&
+                e->row[0].z == begin_at.z);
 }
 
 /* Tells that the rows have met, and sends the first back to where it began the frame. */
@@ -175,7 +179,7 @@ static void test_what_goes_to_its_begin_gets_its_momenta_back(void **state)
     context.path[0].at = path_at(&context.path[0], 0.5);
     context.path[0].at.z += 0.05; /* an impact has moved it out of the other */
     context.path[0].since = 0.5;
-    context.next->entities.z[0] += 0.05;
+    context.next->entities.row[0].z += 0.05;
     struct sums shifted = sums_of();
     assert_true(vec3_length(vec3_sub(shifted.about_centre, before.about_centre)) > 10.0);
     meet_and_send_back();
@@ -194,11 +198,12 @@ static void test_momenta_are_not_shared_with_what_does_not_drift(void **state)
     const struct entities *e = &context.next->entities;
     (void)state;
     assert_int_equal(drift_guard_init(&drift, &f.view.world), 0);
-    e->behaviour[1] = BEHAVIOUR_PATROL;
+    e->row[1].behaviour = BEHAVIOUR_PATROL;
     meet_and_send_back();
     struct vec3 velocity = entities_velocity(e, 0);
     drift_guard_restore(&drift, &context, 0);
-    assert_true(e->vx[0] == velocity.x && e->vy[0] == velocity.y && e->vz[0] == velocity.z);
+    assert_true(e->row[0].vx == velocity.x && e->row[0].vy == velocity.y &&
+                e->row[0].vz == velocity.z);
     drift_guard_forget(&drift);
     drift_guard_free(&drift);
 }

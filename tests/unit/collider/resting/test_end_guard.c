@@ -35,12 +35,12 @@ static int open_world(void **state)
         fixture_put(&f, (struct fixture_entity){
                             .kind = "tank", .at = {WEST_M + 4.5 * i, FIXTURE_GROUND_M, 25000.0}});
     for (uint32_t i = 0; i < ROWS; i++)
-        steps_rows(&f).behaviour[i] = BEHAVIOUR_IDLE;
+        steps_rows(&f).row[i].behaviour = BEHAVIOUR_IDLE;
     steps_respond(&f, &context);
     side_by_side = 4.5 - steps_gap(&f, &context.next->entities, 0, 1);
     steps_respond_end(&context);
     for (uint32_t i = 0; i < ROWS; i++)
-        steps_rows(&f).x[i] = WEST_M + (side_by_side + 0.05) * i;
+        steps_rows(&f).row[i].x = WEST_M + (side_by_side + 0.05) * i;
     fixture_state(&f).head->tick = 10;
     steps_respond(&f, &context);
     return 0;
@@ -66,8 +66,8 @@ static const struct entities *committed(void)
 
 static void move(uint32_t row, double east_m)
 {
-    next()->x[row] += east_m;
-    next()->vx[row] = 60.0 * east_m;
+    next()->row[row].x += east_m;
+    next()->row[row].vx = 60.0 * east_m;
     body_motion_compute(context.motion, row);
 }
 
@@ -95,8 +95,8 @@ static void test_bodies_that_do_not_meet_are_left_alone(void **state)
     pair(1, 2);
     move(0, 0.04);
     run(1, (uint32_t[]){0});
-    assert_true(next()->x[0] == WEST_M + 0.04 && next()->vx[0] == 60.0 * 0.04);
-    assert_true(next()->x[1] == committed()->x[1]);
+    assert_true(next()->row[0].x == WEST_M + 0.04 && next()->row[0].vx == 60.0 * 0.04);
+    assert_true(next()->row[1].x == committed()->row[1].x);
 }
 
 static void test_a_body_that_ends_in_another_goes_back_by_half(void **state)
@@ -106,9 +106,10 @@ static void test_a_body_that_ends_in_another_goes_back_by_half(void **state)
     pair(1, 2);
     move(0, 0.08);
     run(1, (uint32_t[]){0});
-    assert_true(fabs(next()->x[0] - WEST_M - 0.04) < 1e-9); /* both went back once */
-    assert_true(fabs(next()->vx[0] - 30.0 * 0.08) < 1e-9);
-    assert_true(next()->x[1] == committed()->x[1] && next()->x[2] == committed()->x[2]);
+    assert_true(fabs(next()->row[0].x - WEST_M - 0.04) < 1e-9); /* both went back once */
+    assert_true(fabs(next()->row[0].vx - 30.0 * 0.08) < 1e-9);
+    assert_true(next()->row[1].x == committed()->row[1].x &&
+                next()->row[2].x == committed()->row[2].x);
     assert_true(steps_gap(&f, next(), 0, 1) > 0.0);
 }
 
@@ -118,7 +119,7 @@ static void test_at_last_it_goes_back_all_the_way(void **state)
     pair(0, 1);
     move(0, 1.5); /* an eighth of it is still too far */
     run(1, (uint32_t[]){0});
-    assert_true(next()->x[0] == WEST_M && next()->vx[0] == 0.0);
+    assert_true(next()->row[0].x == WEST_M && next()->row[0].vx == 0.0);
 }
 
 /* Two tanks move east, the one behind faster. */
@@ -136,18 +137,18 @@ static void test_the_body_that_follows_goes_back_before_the_other(void **state)
 {
     (void)state;
     follow(0.2, 0.1);
-    assert_true(fabs(next()->x[0] - WEST_M - 0.1) < 1e-9);
-    assert_true(next()->x[1] == committed()->x[1] + 0.1 && next()->vx[1] == 60.0 * 0.1);
+    assert_true(fabs(next()->row[0].x - WEST_M - 0.1) < 1e-9);
+    assert_true(next()->row[1].x == committed()->row[1].x + 0.1 && next()->row[1].vx == 60.0 * 0.1);
 }
 
 /* One that leaves goes back, too, if the follower alone is not enough: it turned into him. */
 static void test_the_other_goes_back_when_the_follower_is_back(void **state)
 {
     (void)state;
-    next()->heading[1] = 0.5;
+    next()->row[1].heading = 0.5;
     follow(0.001, 0.001);
-    assert_true(next()->x[0] == WEST_M && next()->x[1] < committed()->x[1] + 0.001);
-    assert_true(next()->heading[1] < 0.5);
+    assert_true(next()->row[0].x == WEST_M && next()->row[1].x < committed()->row[1].x + 0.001);
+    assert_true(next()->row[1].heading < 0.5);
 }
 
 /* Two bodies that stand still because the guard has put one back hold each other. */
@@ -176,7 +177,7 @@ static void assert_looked_at(void)
 {
     move(0, 0.08);
     run(0, (uint32_t[]){0});
-    assert_true(fabs(next()->x[0] - WEST_M - 0.04) < 1e-9);
+    assert_true(fabs(next()->row[0].x - WEST_M - 0.04) < 1e-9);
     assert_true(steps_gap(&f, next(), 0, 1) > 0.0);
 }
 
@@ -204,16 +205,16 @@ static void test_a_wreck_goes_back_in_its_whole_pose(void **state)
     struct entities *e = next();
     (void)state;
     pair(0, 1);
-    e->state[0] = ENTITY_WRECK;
-    e->roll[0] = 0.3;
-    e->y[0] += 0.02;
-    e->vy[0] = 0.6;
-    e->spin_z[0] = 0.9;
+    e->row[0].state = ENTITY_WRECK;
+    e->row[0].roll = 0.3;
+    e->row[0].y += 0.02;
+    e->row[0].vy = 0.6;
+    e->row[0].spin_z = 0.9;
     body_motion_compute(context.motion, 0);
     run(1, (uint32_t[]){0});
-    assert_true(e->roll[0] == committed()->roll[0] || fabs(e->roll[0]) < 0.16);
-    assert_true(fabs(e->y[0] - committed()->y[0]) < 0.011);
-    assert_true(e->vy[0] <= 0.3 && e->spin_z[0] <= 0.45);
+    assert_true(e->row[0].roll == committed()->row[0].roll || fabs(e->row[0].roll) < 0.16);
+    assert_true(fabs(e->row[0].y - committed()->row[0].y) < 0.011);
+    assert_true(e->row[0].vy <= 0.3 && e->row[0].spin_z <= 0.45);
 }
 
 /* The third tank follows the second, which has to go back; the fourth is out of it. */
@@ -229,25 +230,25 @@ static void test_a_body_that_went_back_can_send_back_the_next(void **state)
     run(3, (uint32_t[]){0, 1, 2});
     for (uint32_t i = 0; i + 1 < ROWS; i++)
         assert_true(steps_gap(&f, next(), i, i + 1) >= -SLACK_M);
-    assert_true(next()->x[0] == WEST_M && next()->x[3] == committed()->x[3]);
+    assert_true(next()->row[0].x == WEST_M && next()->row[3].x == committed()->row[3].x);
 }
 
 static void test_a_driver_who_holds_the_course_keeps_its_speed(void **state)
 {
     (void)state;
-    next()->behaviour[0] = BEHAVIOUR_HOLD;
+    next()->row[0].behaviour = BEHAVIOUR_HOLD;
     pair(0, 1);
     move(0, 1.5);
     run(1, (uint32_t[]){0});
-    assert_true(next()->x[0] == WEST_M && next()->vx[0] == 90.0);
+    assert_true(next()->row[0].x == WEST_M && next()->row[0].vx == 90.0);
 }
 
 /* Puts the last tank beside the bank, on its springs, and moves it to the east in the frame. */
 static void move_beside_bank(double gap_m, double east_m)
 {
     struct entities w = steps_rows(&f);
-    w.x[3] = next()->x[3] = BANK_M - 0.5 * steps_kind(&f, "tank")->width_m - gap_m;
-    w.flags[3] = next()->flags[3] = next()->flags[3] | ENTITY_FLAG_CHASSIS;
+    w.row[3].x = next()->row[3].x = BANK_M - 0.5 * steps_kind(&f, "tank")->width_m - gap_m;
+    w.row[3].flags = next()->row[3].flags = next()->row[3].flags | ENTITY_FLAG_CHASSIS;
     body_motion_compute(context.motion, 3);
     move(3, east_m);
     run(1, (uint32_t[]){3});
@@ -255,7 +256,8 @@ static void move_beside_bank(double gap_m, double east_m)
 
 static double depth_in_bank(const struct entities *e)
 {
-    const struct mat3 turn = rotation_matrix(rotation_of(e->heading[3], e->pitch[3], e->roll[3]));
+    const struct mat3 turn =
+        rotation_matrix(rotation_of(e->row[3].heading, e->row[3].pitch, e->row[3].roll));
     return vehicle_shell_depth(&f.view.world.terrain, NULL, steps_kind(&f, "tank"),
                                VEHICLE_SHELL_POINTS, entities_position(e, 3), &turn);
 }
@@ -265,9 +267,10 @@ static void test_no_vehicle_ends_deeper_in_a_bank(void **state)
 {
     (void)state;
     move_beside_bank(0.05, 0.03);
-    assert_true(next()->x[3] == committed()->x[3] + 0.03); /* not as far as the bank */
+    assert_true(next()->row[3].x == committed()->row[3].x + 0.03); /* not as far as the bank */
     move_beside_bank(0.05, 0.3);
-    assert_true(next()->x[3] > committed()->x[3] && next()->x[3] < committed()->x[3] + 0.1);
+    assert_true(next()->row[3].x > committed()->row[3].x &&
+                next()->row[3].x < committed()->row[3].x + 0.1);
     assert_true(depth_in_bank(next()) < 0.0101);
 }
 
@@ -277,9 +280,9 @@ static void test_a_vehicle_may_leave_a_bank(void **state)
     (void)state;
     move_beside_bank(-0.15, 0.02);
     assert_true(depth_in_bank(committed()) > 0.05);
-    assert_true(next()->x[3] == committed()->x[3]);
+    assert_true(next()->row[3].x == committed()->row[3].x);
     move_beside_bank(-0.15, -0.02);
-    assert_true(next()->x[3] == committed()->x[3] - 0.02);
+    assert_true(next()->row[3].x == committed()->row[3].x - 0.02);
 }
 
 /* --- what stays --------------------------------------------------------------------------------*/
@@ -287,7 +290,7 @@ static void test_a_vehicle_may_leave_a_bank(void **state)
 static void overlap(double depth_m)
 {
     struct entities w = steps_rows(&f);
-    w.x[1] = next()->x[1] = WEST_M + side_by_side - depth_m;
+    w.row[1].x = next()->row[1].x = WEST_M + side_by_side - depth_m;
     body_motion_compute(context.motion, 1);
     pair(0, 1);
 }
@@ -297,13 +300,13 @@ static void test_an_overlap_may_last_but_not_grow(void **state)
     (void)state;
     overlap(0.01);
     run(1, (uint32_t[]){0});
-    assert_true(next()->x[0] == WEST_M);
+    assert_true(next()->row[0].x == WEST_M);
     move(0, 0.005);
     run(1, (uint32_t[]){0});
-    assert_true(next()->x[0] == WEST_M); /* no half of it is allowed */
+    assert_true(next()->row[0].x == WEST_M); /* no half of it is allowed */
     move(0, -0.005);
     run(1, (uint32_t[]){0});
-    assert_true(next()->x[0] == WEST_M - 0.005);
+    assert_true(next()->row[0].x == WEST_M - 0.005);
 }
 
 /* Level normals overstate how deep a slanted gun is: a pair that does not part is held. Bodies that
@@ -315,15 +318,15 @@ static void test_deep_overlaps_have_to_part_first(void **state)
     overlap(2.0 * RESTING_PARTS_M);
     move(0, 0.005);
     run(1, (uint32_t[]){0});
-    assert_true(next()->x[0] == WEST_M);
+    assert_true(next()->row[0].x == WEST_M);
     context.contacts->marks[0] |= CONTACT_PARTS;
     move(0, 0.005);
     run(1, (uint32_t[]){0});
-    assert_true(next()->x[0] == WEST_M);
+    assert_true(next()->row[0].x == WEST_M);
     context.contacts->marks[0] |= CONTACT_CAPSULES;
     move(0, 0.005);
     run(1, (uint32_t[]){0});
-    assert_true(next()->x[0] == WEST_M + 0.005);
+    assert_true(next()->row[0].x == WEST_M + 0.005);
 }
 
 /* A tank leaves its springs: it loses the pitch that they gave it, and drives into its neighbour.
@@ -333,12 +336,12 @@ static void test_a_vehicle_that_goes_back_stays_on_its_springs(void **state)
     struct entities before = steps_rows(&f);
     (void)state;
     pair(0, 1);
-    before.flags[0] |= ENTITY_FLAG_CHASSIS;
-    before.pitch[0] = 0.0004;
+    before.row[0].flags |= ENTITY_FLAG_CHASSIS;
+    before.row[0].pitch = 0.0004;
     move(0, 1.5);
     run(1, (uint32_t[]){0});
-    assert_true(next()->flags[0] & ENTITY_FLAG_CHASSIS);
-    assert_true(next()->x[0] == WEST_M && next()->pitch[0] == 0.0004);
+    assert_true(next()->row[0].flags & ENTITY_FLAG_CHASSIS);
+    assert_true(next()->row[0].x == WEST_M && next()->row[0].pitch == 0.0004);
 }
 
 /* The second tank is deep in the first, which gives way, but not into the house. */
@@ -352,17 +355,17 @@ static void test_a_body_that_parts_from_another_is_stopped_by_a_wall(void **stat
     pair(0, PAIR_FIXED);
     move(0, -free_m - 0.1);
     run(1, (uint32_t[]){0});
-    assert_true(fabs(next()->x[0] - (WEST_M - 0.5 * (free_m + 0.1))) < 1e-9);
+    assert_true(fabs(next()->row[0].x - (WEST_M - 0.5 * (free_m + 0.1))) < 1e-9);
 }
 
 static void test_a_new_body_is_not_sent_back(void **state)
 {
     (void)state;
     pair(0, 1);
-    next()->id[0] = 80;
+    next()->row[0].id = 80;
     move(0, 0.2);
     run(1, (uint32_t[]){0});
-    assert_true(next()->x[0] == WEST_M + 0.2);
+    assert_true(next()->row[0].x == WEST_M + 0.2);
 }
 
 /* --- order -------------------------------------------------------------------------------------*/
@@ -383,8 +386,10 @@ static void test_the_order_of_rows_and_pairs_does_not_matter(void **state)
         move(2, 0.11);
         move(3, -0.4);
         run(ROWS, rows[order]);
-        memcpy(x[order], next()->x, sizeof x[order]);
-        memcpy(vx[order], next()->vx, sizeof vx[order]);
+        for (uint32_t i = 0; i < ROWS; i++) {
+            x[order][i] = next()->row[i].x;
+            vx[order][i] = next()->row[i].vx;
+        }
         assert_memory_equal(x[order], x[0], sizeof x[0]);
         assert_memory_equal(vx[order], vx[0], sizeof vx[0]);
         for (uint32_t i = 0; i + 1 < ROWS; i++)

@@ -26,16 +26,16 @@ static int open_world(void **state)
     fixture_put(&f, (struct fixture_entity){.kind = "tank", .at = {25000.0, 100.0, 25000.0}});
     fixture_put(&f, (struct fixture_entity){.kind = "jeep", .at = {25004.0, 100.8, 25000.0}});
     const struct state now = fixture_state(&f);
-    steps_rows(&f).flags[JEEP] |= ENTITY_FLAG_CHASSIS;
+    steps_rows(&f).row[JEEP].flags |= ENTITY_FLAG_CHASSIS;
     steps_respond(&f, &context);
-    steps_rows(&f).x[JEEP] -= steps_gap(&f, &context.next->entities, TANK, JEEP) - GAP_M;
+    steps_rows(&f).row[JEEP].x -= steps_gap(&f, &context.next->entities, TANK, JEEP) - GAP_M;
     steps_respond_end(&context);
     now.head->tick = 10;
     now.head->contact_count = 1;
     now.contacts[0] = (struct persistent_contact){.a_row = TANK,
-                                                  .a_id = now.entities.id[TANK],
+                                                  .a_id = now.entities.row[TANK].id,
                                                   .b_row = JEEP,
-                                                  .b_id = now.entities.id[JEEP],
+                                                  .b_id = now.entities.row[JEEP].id,
                                                   .begin_tick = 5,
                                                   .pressed_tick = 9};
     steps_respond(&f, &context);
@@ -54,8 +54,8 @@ static int close_world(void **state)
  * determine its motion. */
 static bool solve(double east_m)
 {
-    context.next->entities.x[JEEP] += east_m;
-    context.next->entities.vx[JEEP] = 60.0 * east_m;
+    context.next->entities.row[JEEP].x += east_m;
+    context.next->entities.row[JEEP].vx = 60.0 * east_m;
     body_motion_compute(context.motion, JEEP);
     free_bodies_solve(&f.stepper.collider.free, &context);
     return f.stepper.collider.free.owned[JEEP] != 0;
@@ -65,7 +65,7 @@ static void test_what_presses_on_a_vehicle_moves_it(void **state)
 {
     (void)state;
     assert_true(solve(-2.0 * GAP_M));
-    assert_true(context.next->entities.x[JEEP] > steps_rows(&f).x[JEEP] - GAP_M);
+    assert_true(context.next->entities.row[JEEP].x > steps_rows(&f).row[JEEP].x - GAP_M);
 }
 
 /* Otherwise the ground would bear it in that frame by points of its hull, as it bears wrecks, and
@@ -74,7 +74,7 @@ static void test_a_vehicle_on_which_nothing_presses_keeps_its_motion(void **stat
 {
     (void)state;
     assert_false(solve(GAP_M));
-    assert_true(context.next->entities.x[JEEP] == steps_rows(&f).x[JEEP] + GAP_M);
+    assert_true(context.next->entities.row[JEEP].x == steps_rows(&f).row[JEEP].x + GAP_M);
     assert_int_equal(f.stepper.collider.free.pairs, 1);
 }
 

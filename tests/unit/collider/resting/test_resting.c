@@ -41,11 +41,11 @@ static int open_world(void **state)
                                             .heading_rad = HALF_PI});
     begin();
     for (int n = 0; n < 60; n++)
-        context.next->entities.x[1] -= 0.5 * steps_gap(&f, &context.next->entities, 0, 1);
-    nose_to_tail = context.next->entities.x[1] - WEST_M;
+        context.next->entities.row[1].x -= 0.5 * steps_gap(&f, &context.next->entities, 0, 1);
+    nose_to_tail = context.next->entities.row[1].x - WEST_M;
     steps_respond_end(&context);
     for (uint32_t i = 0; i < ROWS; i++)
-        steps_rows(&f).x[i] = WEST_M + (nose_to_tail + CONTACT_REST_M) * i;
+        steps_rows(&f).row[i].x = WEST_M + (nose_to_tail + CONTACT_REST_M) * i;
     fixture_state(&f).head->tick = 10;
     resting = &f.stepper.collider.resting;
     return 0;
@@ -73,8 +73,8 @@ static struct persistent_contact *know(uint32_t a)
 static void drive(uint32_t row, double speed_mps)
 {
     struct entities *e = &context.next->entities;
-    steps_rows(&f).vx[row] = e->vx[row] = speed_mps;
-    e->x[row] += speed_mps * world_dt_s(&f.view.world);
+    steps_rows(&f).row[row].vx = e->row[row].vx = speed_mps;
+    e->row[row].x += speed_mps * world_dt_s(&f.view.world);
     body_motion_compute(context.motion, row);
 }
 
@@ -94,12 +94,13 @@ static void test_a_truck_pushes_two_others_on(void **state)
     drive(0, 0.9);
     resting_solve(resting, &context);
     const struct entities *e = &context.next->entities;
-    assert_true(fabs(e->vx[0] + e->vx[1] + e->vx[2] - 0.9) < 1e-9); /* momentum */
-    assert_true(e->vx[2] > 0.2 && e->vx[0] - e->vx[1] < 0.01 && e->vx[1] - e->vx[2] < 0.01);
+    assert_true(fabs(e->row[0].vx + e->row[1].vx + e->row[2].vx - 0.9) < 1e-9); /* momentum */
+    assert_true(e->row[2].vx > 0.2 && e->row[0].vx - e->row[1].vx < 0.01 &&
+                e->row[1].vx - e->row[2].vx < 0.01);
     assert_true(steps_gap(&f, e, 0, 1) > 0.0 && steps_gap(&f, e, 1, 2) > 0.0);
     assert_int_equal(marks(0, 1), CONTACT_RESTS | CONTACT_PRESSED);
     assert_int_equal(resting->moved_count, 3);
-    assert_true(fabs(context.path[2].along.x - e->vx[2] * world_dt_s(&f.view.world)) < 1e-9);
+    assert_true(fabs(context.path[2].along.x - e->row[2].vx * world_dt_s(&f.view.world)) < 1e-9);
 }
 
 /* Returns what is known of a pair. */
@@ -132,12 +133,12 @@ static void test_impulses_are_kept_for_the_next_frame(void **state)
     begin();
     drive(0, 0.9);
     resting_solve(resting, &context);
-    speed = context.next->entities.vx[1];
+    speed = context.next->entities.row[1].vx;
     assert_true(fabs(sum_of(loads(0)) - mass * speed) < 1e-4 * mass);
     memcpy(contact->load, loads(0), sizeof contact->load);
     memcpy(contact->nearest, rested(0)->memory.nearest, sizeof contact->nearest);
     steps_respond_end(&context);
-    steps_rows(&f).vx[0] = 0.0;
+    steps_rows(&f).row[0].vx = 0.0;
     begin();
     resting_solve(resting, &context); /* nothing pushes: nothing may begin to move */
     assert_int_equal(resting->moved_count, 0);
@@ -146,8 +147,8 @@ static void test_impulses_are_kept_for_the_next_frame(void **state)
     drive(0, 0.9);
     resting_solve(resting, &context);
     assert_true(resting->point[0].normal_ns > 0.0);
-    assert_true(fabs(context.next->entities.vx[1] - speed) < 1e-3);
-    assert_true(context.next->entities.vx[1] != speed); /* it came from elsewhere */
+    assert_true(fabs(context.next->entities.row[1].vx - speed) < 1e-3);
+    assert_true(context.next->entities.row[1].vx != speed); /* it came from elsewhere */
 }
 
 static void test_an_impact_is_left_to_the_search(void **state)
@@ -160,31 +161,31 @@ static void test_an_impact_is_left_to_the_search(void **state)
     assert_int_equal(resting->pairs, 0);
     assert_int_equal(resting->moved_count, 0);
     assert_int_equal(marks(0, 1), 0);
-    assert_true(context.next->entities.vx[1] == 0.0);
+    assert_true(context.next->entities.row[1].vx == 0.0);
 }
 
 static void test_brakes_hold_against_a_push(void **state)
 {
     (void)state;
     know(0);
-    steps_rows(&f).behaviour[1] = BEHAVIOUR_IDLE; /* its driver brakes */
+    steps_rows(&f).row[1].behaviour = BEHAVIOUR_IDLE; /* its driver brakes */
     begin();
     drive(0, 0.05);
     resting_solve(resting, &context);
-    assert_true(fabs(context.next->entities.vx[1]) < 1e-3);
-    assert_true(fabs(context.next->entities.vx[0]) < 1e-3);
+    assert_true(fabs(context.next->entities.row[1].vx) < 1e-3);
+    assert_true(fabs(context.next->entities.row[0].vx) < 1e-3);
 }
 
 static void test_bodies_that_are_far_do_not_press(void **state)
 {
     (void)state;
     know(0);
-    steps_rows(&f).x[0] -= 0.5;
+    steps_rows(&f).row[0].x -= 0.5;
     begin();
     drive(0, 0.9);
     resting_solve(resting, &context);
     assert_int_equal(resting->pairs, 0);
-    assert_true(context.next->entities.vx[0] == 0.9);
+    assert_true(context.next->entities.row[0].vx == 0.9);
 }
 
 /* --- overlaps ----------------------------------------------------------------------------------*/
@@ -193,7 +194,7 @@ static void test_an_overlap_parts_without_a_speed(void **state)
 {
     double before = 0.0;
     (void)state;
-    steps_rows(&f).x[1] -= 0.02;
+    steps_rows(&f).row[1].x -= 0.02;
     know(0)->flags = PERSISTENT_CONTACT_OVERLAPS;
     begin();
     before = steps_gap(&f, &context.next->entities, 0, 1);
@@ -201,7 +202,7 @@ static void test_an_overlap_parts_without_a_speed(void **state)
     const struct entities *e = &context.next->entities;
     double after = steps_gap(&f, e, 0, 1);
     assert_true(fabs(after - before - 0.5 * (CONTACT_REST_M - before)) < 1e-4); /* half of it */
-    assert_true(e->vx[0] == 0.0 && e->vx[1] == 0.0 && e->spin_y[0] == 0.0);
+    assert_true(e->row[0].vx == 0.0 && e->row[1].vx == 0.0 && e->row[0].spin_y == 0.0);
     assert_int_equal(marks(0, 1), CONTACT_RESTS | CONTACT_PRESSED | CONTACT_OVERLAPS);
     assert_int_equal(context.events.count, 0); /* no news */
 }
@@ -210,7 +211,7 @@ static void test_an_overlap_parts_without_a_speed(void **state)
 static void test_a_small_gap_is_no_overlap(void **state)
 {
     (void)state;
-    steps_rows(&f).x[1] -= 0.5 * CONTACT_REST_M;
+    steps_rows(&f).row[1].x -= 0.5 * CONTACT_REST_M;
     know(0)->flags = PERSISTENT_CONTACT_OVERLAPS;
     begin();
     resting_solve(resting, &context);
@@ -225,11 +226,11 @@ static void test_who_lies_on_a_side_is_no_disc(void **state)
     double half = 0.5 * steps_kind(&f, "truck")->width_m;
     (void)state;
     for (uint32_t i = 0; i < 2; i++) {
-        w.state[i] = ENTITY_WRECK;
-        w.heading[i] = 0.0;
-        w.x[i] = WEST_M + half * i;
-        w.y[i] = FIXTURE_GROUND_M + half;
-        w.roll[i] = i == 0 ? -HALF_PI : HALF_PI;
+        w.row[i].state = ENTITY_WRECK;
+        w.row[i].heading = 0.0;
+        w.row[i].x = WEST_M + half * i;
+        w.row[i].y = FIXTURE_GROUND_M + half;
+        w.row[i].roll = i == 0 ? -HALF_PI : HALF_PI;
     }
     know(0);
     begin();
@@ -249,16 +250,16 @@ static void test_bodies_that_moved_find_their_new_neighbours(void **state)
     struct entities w = steps_rows(&f);
     bool found = false;
     (void)state;
-    w.x[1] -= 0.2;
-    w.x[2] = w.x[1] + 2.0 * f.view.world.kinds[w.kind[1]].bound_m +
-             2.0 * pair_filter_slack(&f.view.world) + 0.015;
+    w.row[1].x -= 0.2;
+    w.row[2].x = w.row[1].x + 2.0 * f.view.world.kinds[w.row[1].kind].bound_m +
+                 2.0 * pair_filter_slack(&f.view.world) + 0.015;
     know(0)->flags = PERSISTENT_CONTACT_OVERLAPS;
     begin();
     resting_solve(resting, &context);
     for (uint32_t i = 0; i < context.contacts->pair_count; i++)
         found |= context.contacts->pair[i].a == 1 && context.contacts->pair[i].b == 2;
     assert_true(found);
-    assert_true(context.next->entities.x[1] > w.x[1] + 0.01);
+    assert_true(context.next->entities.row[1].x > w.row[1].x + 0.01);
 }
 
 /* Another body had the row in the frame before, elsewhere, faster and with another heading. */
@@ -266,19 +267,19 @@ static void test_a_new_body_takes_nothing_from_its_row(void **state)
 {
     struct entities w = steps_rows(&f);
     (void)state;
-    w.x[1] -= 0.02;
+    w.row[1].x -= 0.02;
     begin();
     const struct entities *e = &context.next->entities;
-    e->id[1] = 90;
-    w.heading[1] = 2.0;
-    w.vx[1] = 8.0;
-    e->behaviour[1] = BEHAVIOUR_IDLE;
+    steps_replace(&f, &context, 1, 90);
+    w.row[1].heading = 2.0;
+    w.row[1].vx = 8.0;
+    e->row[1].behaviour = BEHAVIOUR_IDLE;
     body_motion_compute(context.motion, 1);
     resting_solve(resting, &context);
     assert_int_equal(resting->pairs, 1);
     assert_int_equal(marks(0, 1), CONTACT_RESTS | CONTACT_PRESSED | CONTACT_OVERLAPS);
-    assert_true(fabs(e->heading[1] - HALF_PI) < 0.01);
-    assert_true(fabs(e->vx[1]) < 1e-12 && steps_gap(&f, e, 0, 1) > -0.012);
+    assert_true(fabs(e->row[1].heading - HALF_PI) < 0.01);
+    assert_true(fabs(e->row[1].vx) < 1e-12 && steps_gap(&f, e, 0, 1) > -0.012);
     assert_true(resting->body[1].grip_along > 0.0);
     assert_int_equal(context.events.count, 1); /* no impact will report it */
     assert_int_equal(f.view.events[context.events.first].type, EVENT_COLLISION);
@@ -292,15 +293,15 @@ static void test_what_the_ground_pushes_out_pushes_nothing(void **state)
     (void)state;
     begin();
     e = &context.next->entities;
-    e->x[0] += 0.04;
-    e->heading[0] += 0.01;
+    e->row[0].x += 0.04;
+    e->row[0].heading += 0.01;
     body_motion_compute(context.motion, 0);
     resting_level_body(&context, 0, &body);
     assert_true(fabs(body.moved.x - 0.04 * 60.0) < 1e-9 && body.moved.spin < -0.59);
-    e->state[0] = ENTITY_WRECK;
+    e->row[0].state = ENTITY_WRECK;
     resting_level_body(&context, 0, &body);
     assert_true(body.moved.x == 0.0 && body.moved.z == 0.0 && body.moved.spin == 0.0);
-    e->vx[0] = 0.3; /* and this is its motion */
+    e->row[0].vx = 0.3; /* and this is its motion */
     resting_level_body(&context, 0, &body);
     assert_true(fabs(body.moved.x - 0.3) < 1e-9);
 }

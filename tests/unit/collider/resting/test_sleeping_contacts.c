@@ -34,14 +34,18 @@ static int open_world(void **state)
         fixture_put(&f,
                     (struct fixture_entity){.kind = "tank", .at = {25000.0 + 20 * i, 100, 25000}});
     struct state now = fixture_state(&f);
-    const uint32_t *id = now.entities.id;
+    const struct entity *row = now.entities.row;
     now.head->tick = 10;
     now.head->contact_count = 2;
-    now.contacts[0] = (struct persistent_contact){
-        .a_row = 0, .b_row = 1, .a_id = id[0], .b_id = id[1], .begin_tick = 5, .pressed_tick = 9};
+    now.contacts[0] = (struct persistent_contact){.a_row = 0,
+                                                  .b_row = 1,
+                                                  .a_id = row[0].id,
+                                                  .b_id = row[1].id,
+                                                  .begin_tick = 5,
+                                                  .pressed_tick = 9};
     now.contacts[1] = (struct persistent_contact){.a_row = 2,
                                                   .b_row = SLOT_NONE,
-                                                  .a_id = id[2],
+                                                  .a_id = row[2].id,
                                                   .b_id = TREE,
                                                   .begin_tick = 5,
                                                   .pressed_tick = 9};
@@ -49,7 +53,7 @@ static int open_world(void **state)
     struct resting_records *resting = &context.broad->resting;
     resting->never = false;
     memset(resting->awake, 0, resting->words * sizeof *resting->awake);
-    memset(context.writer.changed, 0, CHECKSUM_BLOCKS * sizeof *context.writer.changed);
+    memset(context.writer.written, 0, resting->words * sizeof *resting->written);
     context.contacts_sleep = true;
     return 0;
 }
@@ -109,7 +113,7 @@ static void test_a_contact_that_bears_a_load_does_not_sleep(void **state)
 static void test_a_body_that_is_gone_wakes_all(void **state)
 {
     (void)state;
-    context.next->entities.state[1] = ENTITY_FREE;
+    context.next->entities.row[1].state = ENTITY_FREE;
     assert_false(sleeping_contacts_all(&context));
 }
 
@@ -126,7 +130,7 @@ static void test_a_wreck_in_a_bush_does_not_sleep(void **state)
     (void)state;
     contact(1)->b_id = BUSH;
     assert_true(sleeping_contacts_all(&context));
-    context.next->entities.state[2] = ENTITY_WRECK;
+    context.next->entities.row[2].state = ENTITY_WRECK;
     assert_false(sleeping_contacts_all(&context));
     contact(1)->b_id = TREE;
     assert_true(sleeping_contacts_all(&context));
@@ -165,13 +169,13 @@ static void test_a_change_of_a_path_wakes(void **state)
     context.motion->changes = 0;
 }
 
-/* Rows that are written are hashed anew; of these columns only state and id say who is gone. */
+/* Of the rows that responses write those that are no longer there are gone. */
 static void test_the_end_of_a_body_wakes(void **state)
 {
     (void)state;
-    context.writer.changed[0] = COLUMN_BIT(damage);
+    table_set_damage(&context.writer, 1, DAMAGE_HIGH);
     assert_true(sleeping_contacts_keep(&context));
-    context.writer.changed[0] = COLUMN_BIT(state);
+    table_set_state(&context.writer, 1, ENTITY_WRECK);
     assert_false(sleeping_contacts_keep(&context));
 }
 

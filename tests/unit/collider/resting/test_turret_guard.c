@@ -41,7 +41,7 @@ static uint32_t put(const char *kind, double x, double z, double heading_rad)
                                                            .at = {x, FIXTURE_GROUND_M, z},
                                                            .heading_rad = heading_rad,
                                                            .behaviour = BEHAVIOUR_IDLE});
-    steps_rows(&f).behaviour[row] = BEHAVIOUR_IDLE;
+    steps_rows(&f).row[row].behaviour = BEHAVIOUR_IDLE;
     return row;
 }
 
@@ -55,12 +55,12 @@ static void train(uint32_t row, double traverse, double elevate)
 
 static double turret(uint32_t row)
 {
-    return (double)steps_rows(&f).turret[row];
+    return (double)steps_rows(&f).row[row].turret;
 }
 
 static double gun(uint32_t row)
 {
-    return (double)steps_rows(&f).gun[row];
+    return (double)steps_rows(&f).row[row].gun;
 }
 
 /* Returns the angle at which the muzzle of a tank that heads north is at the wall. */
@@ -90,8 +90,8 @@ static void test_a_gun_stops_at_the_wall_beside_its_tank(void **state)
     if (!(fabs(stopped - at_wall()) < 0.06))
         fail_msg("stopped at %g, the wall is at %g", stopped, at_wall());
     fixture_run(&f, 60);
-    assert_true(turret(tank) == stopped);                     /* it does not creep */
-    assert_true(steps_rows(&f).x[tank] == WALL_X - BESIDE_M); /* and does not push its tank */
+    assert_true(turret(tank) == stopped);                         /* it does not creep */
+    assert_true(steps_rows(&f).row[tank].x == WALL_X - BESIDE_M); /* and does not push its tank */
     assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 0);
     train(tank, -1.0, 0.0);
     fixture_run(&f, 30);
@@ -152,10 +152,10 @@ static double passed(double turret_rad)
         &f, (struct fixture_entity){.kind = "tank",
                                     .at = {WALL_X - BESIDE_M, FIXTURE_GROUND_M, 25025.0},
                                     .velocity = {0.0, 0.0, -10.0}});
-    steps_rows(&f).turret[tank] = (float)turret_rad;
-    steps_rows(&f).target_id[tank] = 99; /* an agent without a target lays its gun to rest */
+    steps_rows(&f).row[tank].turret = (float)turret_rad;
+    steps_rows(&f).row[tank].target_id = 99; /* an agent without a target lays its gun to rest */
     fixture_run(&f, 60 * SECONDS);
-    return steps_rows(&f).z[tank];
+    return steps_rows(&f).row[tank].z;
 }
 
 static void test_a_tank_drives_past_a_wall_with_its_gun_ahead(void **state)

@@ -49,8 +49,8 @@ static void make_frame(uint32_t rows, uint32_t events)
     struct state *next = bare_view_begin(&collider);
     next->head->used = rows;
     for (uint32_t i = 0; i < rows; i++) {
-        next->entities.x[i] = (double)next->head->frame + i;
-        next->entities.id[i] = i + 1;
+        next->entities.row[i].x = (double)next->head->frame + i;
+        next->entities.row[i].id = i + 1;
     }
     memset(next->fixed_damage, (int)next->head->frame, view.header->counts.fixed);
     for (uint32_t i = 0; i < events; i++) {
@@ -73,7 +73,7 @@ static void test_rows_after_those_in_use_have_no_id(void **state)
         make_frame(used[n], 0);
         assert_int_equal(snapshot_take(&snapshot, &view), 0);
         for (uint32_t row = 0; row < 20; row++)
-            assert_int_equal(snapshot.entities.id[row], row < used[n] ? row + 1 : 0);
+            assert_int_equal(snapshot.entities.row[row].id, row < used[n] ? row + 1 : 0);
     }
     snapshot_free(&snapshot);
 }
@@ -111,11 +111,11 @@ static void test_rows_of_a_snapshot_go_on(void **state)
     assert_int_equal(snapshot_take(&snapshot, &view), 0);
     assert_false(snapshot_take_row_poses(&snapshot, &view, rows, 2)); /* there is no later frame */
     make_frame(6, 0);
-    bare_view_begin(&collider)->entities.x[4] = -1.0; /* a frame that is being made */
+    bare_view_begin(&collider)->entities.row[4].x = -1.0; /* a frame that is being made */
     assert_true(snapshot_take_row_poses(&snapshot, &view, rows, 2));
     assert_int_equal(snapshot.head.frame, 2);
     for (uint32_t row = 0; row < 6; row++)
-        assert_true(snapshot.entities.x[row] == (row == 4 || row == 1 ? 2.0 : 1.0) + row);
+        assert_true(snapshot.entities.row[row].x == (row == 4 || row == 1 ? 2.0 : 1.0) + row);
     assert_false(snapshot_take_row_poses(&snapshot, &view, rows, 2));
     atomic_store(&view.commit->writing, 4); /* the buffer of frame 2 is being written */
     snapshot.head.frame = 1;
@@ -149,10 +149,10 @@ static void test_frame_being_made_does_not_hinder_a_snapshot(void **state)
     (void)state;
     make_frame(5, 0);
     assert_int_equal(snapshot_init(&snapshot, &view), 0);
-    bare_view_begin(&collider)->entities.x[0] = -1.0;
+    bare_view_begin(&collider)->entities.row[0].x = -1.0;
     assert_int_equal(snapshot_take(&snapshot, &view), 0);
     assert_int_equal(snapshot.head.frame, 1);
-    assert_true(snapshot.entities.x[4] == 5.0);
+    assert_true(snapshot.entities.row[4].x == 5.0);
     assert_int_equal(snapshot.fixed_damage[8], 1);
     snapshot_free(&snapshot);
 }
@@ -191,10 +191,10 @@ static void test_damaged_column_or_head_is_ebadmsg(void **state)
     const struct state *w = &view.w[1];
     assert_int_equal(snapshot_init(&snapshot, &view), 0);
 #define X(type, name)                                                                              \
-    *(unsigned char *)&w->entities.name[4] ^= 8;                                                   \
+    *(unsigned char *)&w->entities.row[4].name ^= 8;                                               \
     check_damaged(&snapshot, #name);                                                               \
-    *(unsigned char *)&w->entities.name[4] ^= 8;
-    ENTITY_COLUMNS(X)
+    *(unsigned char *)&w->entities.row[4].name ^= 8;
+    ENTITY_FIELDS(X)
 #undef X
     for (size_t i = 0; i < offsetof(struct state_head, debris); i++) {
         ((unsigned char *)w->head)[i] ^= 8;

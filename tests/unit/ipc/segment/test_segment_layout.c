@@ -27,11 +27,11 @@ static void test_contacts_follow_the_fixed_damage(void **state)
 {
     struct layout layout;
     (void)state;
-    for (uint32_t fixed = 0; fixed <= 2 * COLUMN_ALIGN; fixed++) {
+    for (uint32_t fixed = 0; fixed <= 2 * TABLE_ALIGN; fixed++) {
         const struct segment_header header = header_of(fixed, 7);
         size_t offset = layout_contacts_offset(16, fixed), end = layout_table_bytes(16) + fixed;
-        assert_int_equal(offset % COLUMN_ALIGN, 0);
-        assert_true(offset >= end && offset < end + COLUMN_ALIGN);
+        assert_int_equal(offset % TABLE_ALIGN, 0);
+        assert_true(offset >= end && offset < end + TABLE_ALIGN);
         assert_int_equal(layout_compute(&layout, &header), 0);
         assert_int_equal(layout.bytes[REGION_WORLD_A],
                          offset + 7 * sizeof(struct persistent_contact));

@@ -138,6 +138,7 @@ static void put_contacts(void)
     struct state first = look.w[0];
     first.head = (void *)place(first.head);
     first.hashes = (void *)place(first.hashes);
+    first.written = (void *)place(first.written);
     first.contacts = (void *)place(first.contacts);
     for (uint32_t i = 0; i < CONTACTS; i++)
         first.contacts[i] = (struct persistent_contact){i + 1, i + 2, i,    i + 1, 1,           2,
@@ -246,9 +247,9 @@ static unsigned char *random_cell(const struct entities *entities, uint32_t used
     uint32_t columns = 0;
     uint64_t row = fixture_random(random) % used;
 #define X(type, column)                                                                            \
-    cells[columns] = place(&entities->column[row]);                                                \
+    cells[columns] = place(&entities->row[row].column);                                            \
     sizes[columns++] = sizeof(type);
-    ENTITY_COLUMNS(X)
+    ENTITY_FIELDS(X)
 #undef X
     uint64_t column = fixture_random(random) % columns;
     return cells[column] + fixture_random(random) % sizes[column];
@@ -301,7 +302,8 @@ static void test_damage_in_both_buffers_is_refused_and_named(void **state)
 {
     (void)state;
     run_to(12);
-    unsigned char *a = place(&look.w[0].entities.x[3]), *b = place(&look.w[1].entities.y[5]);
+    unsigned char *a = place(&look.w[0].entities.row[3].x),
+                  *b = place(&look.w[1].entities.row[5].y);
     *a ^= 4;
     *b ^= 8;
     repaired(-1, "both buffers: frame 12 fails its checksum (world A");
@@ -424,7 +426,7 @@ static void test_frame_made_again_takes_the_commands_that_it_took(void **state)
         if (variant == 2)
             move_one(); /* frame 11 must take its commands again */
         if (variant > 0) {
-            *place(&look.w[1].entities.x[2]) ^= 1;
+            *place(&look.w[1].entities.row[2].x) ^= 1;
             repaired(1, "goes on from frame 10");
             assert_int_equal(moved_of(&look), variant == 1 ? 11 : 10);
         }
@@ -444,7 +446,7 @@ static void test_overwritten_commands_prevent_the_repair(void **state)
     send(1, 2);
     run_to(11);
     send(2, 2 + look.header->command_slots); /* as many as fit: the first is overwritten */
-    unsigned char *byte = place(&look.w[1].entities.x[2]);
+    unsigned char *byte = place(&look.w[1].entities.row[2].x);
     *byte ^= 1;
     repaired(-1, "frame 10 is whole, but ring 0 holds the last");
     *byte ^= 1;
@@ -485,7 +487,7 @@ static void test_snapshots_after_a_repair(void **state)
     run_to(9);
     assert_int_equal(snapshot_init(&snapshot, &look), 0);
     assert_int_equal(snapshot_take(&snapshot, &look), 0);
-    *place(&look.w[1].entities.x[2]) ^= 1;
+    *place(&look.w[1].entities.row[2].x) ^= 1;
     assert_int_equal(snapshot_take(&snapshot, &look), -1);
     repaired(1, "goes on from frame 8");
     assert_int_equal(snapshot_take(&snapshot, &look), 0);

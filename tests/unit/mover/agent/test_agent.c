@@ -27,16 +27,16 @@ static uint32_t put(const char *kind, double x, double z, enum force force,
 
 static enum behaviour behaviour_of(uint32_t row)
 {
-    return (enum behaviour)steps_rows(&f).behaviour[row];
+    return (enum behaviour)steps_rows(&f).row[row].behaviour;
 }
 
 static void attack(uint32_t row, uint32_t target, double seconds)
 {
     struct entities e = steps_rows(&f);
-    e.behaviour[row] = BEHAVIOUR_ATTACK;
+    e.row[row].behaviour = BEHAVIOUR_ATTACK;
     steps_target(&f, row, target);
-    e.until_tick[row] = (uint32_t)(fixture_state(&f).head->tick + (uint64_t)(seconds * HZ));
-    e.reload_tick[row] = UINT32_MAX; /* it holds its fire */
+    e.row[row].until_tick = (uint32_t)(fixture_state(&f).head->tick + (uint64_t)(seconds * HZ));
+    e.row[row].reload_tick = UINT32_MAX; /* it holds its fire */
 }
 
 /* The only agent event so far is this one. */
@@ -65,13 +65,13 @@ static void test_row_9_a_shot_at_agent_reacts_within_two_frames(void **state)
         steps_aim(&f, shooter, target);
         struct event_command answer =
             steps_command(&f, (struct command){.type = COMMAND_FIRE,
-                                               .entity = steps_rows(&f).id[shooter],
-                                               .target = steps_rows(&f).id[target]});
+                                               .entity = steps_rows(&f).row[shooter].id,
+                                               .target = steps_rows(&f).row[target].id});
         assert_int_equal(answer.result, COMMAND_DONE);
         fixture_run(&f, 1); /* the second frame */
         assert_true(behaviour_of(target) == BEHAVIOUR_ATTACK ||
                     behaviour_of(target) == BEHAVIOUR_FLEE);
-        assert_int_equal(steps_rows(&f).target_id[target], steps_rows(&f).id[shooter]);
+        assert_int_equal(steps_rows(&f).row[target].target_id, steps_rows(&f).row[shooter].id);
         assert_int_equal(behaviour_of(beside), BEHAVIOUR_PATROL);
         assert_int_equal(behaviour_of(shooter), BEHAVIOUR_HOLD);
     }
@@ -119,13 +119,13 @@ static void test_row_9_an_unarmed_agent_flees_and_gets_away(void **state)
     uint32_t held = put("tank", 25000.0, 25300.0, FORCE_BLUE, BEHAVIOUR_IDLE);
     (void)state;
     steps_kind(&f, "tank")->courage = 1.0;
-    steps_rows(&f).flags[held] = ENTITY_FLAG_HOLD_FIRE;
+    steps_rows(&f).row[held].flags = ENTITY_FLAG_HOLD_FIRE;
     steps_threaten(&f, unarmed, enemy);
     steps_threaten(&f, held, enemy);
     fixture_run(&f, (uint32_t)(25.0 * HZ));
     assert_int_equal(behaviour_of(unarmed), BEHAVIOUR_FLEE);
     assert_int_equal(behaviour_of(held), BEHAVIOUR_FLEE);
-    assert_true(steps_rows(&f).x[unarmed] > 25500.0 && steps_rows(&f).z[held] > 25500.0);
+    assert_true(steps_rows(&f).row[unarmed].x > 25500.0 && steps_rows(&f).row[held].z > 25500.0);
     fixture_run(&f, (uint32_t)(6.0 * HZ)); /* it flees for half a minute */
     assert_int_equal(behaviour_of(unarmed), BEHAVIOUR_IDLE);
     assert_int_equal(behaviour_of(held), BEHAVIOUR_IDLE);
@@ -137,14 +137,14 @@ static void test_a_threat_from_the_dead_is_not_heard(void **state)
     uint32_t row = put("tank", 25000.0, 25000.0, FORCE_BLUE, BEHAVIOUR_IDLE);
     (void)state;
     steps_threaten(&f, row, enemy);
-    steps_rows(&f).state[enemy] = ENTITY_WRECK;
+    steps_rows(&f).row[enemy].state = ENTITY_WRECK;
     fixture_run(&f, 2);
     assert_int_equal(behaviour_of(row), BEHAVIOUR_IDLE);
-    steps_rows(&f).threat_slot[row] = enemy;
-    steps_rows(&f).threat_id[row] = 77; /* the slot's last owner */
+    steps_rows(&f).row[row].threat_slot = enemy;
+    steps_rows(&f).row[row].threat_id = 77; /* the slot's last owner */
     fixture_run(&f, 2);
     assert_int_equal(behaviour_of(row), BEHAVIOUR_IDLE);
-    assert_int_equal(steps_rows(&f).threat_id[row], 0);
+    assert_int_equal(steps_rows(&f).row[row].threat_id, 0);
 }
 
 /* --- an attack's ends --------------------------------------------------------------------------*/
@@ -157,10 +157,10 @@ static void test_an_attack_ends_when_the_target_is_gone(void **state)
     attack(row, enemy, 1000.0);
     fixture_run(&f, 3);
     assert_int_equal(behaviour_of(row), BEHAVIOUR_ATTACK);
-    steps_rows(&f).state[enemy] = ENTITY_WRECK;
+    steps_rows(&f).row[enemy].state = ENTITY_WRECK;
     fixture_run(&f, 1);
     assert_int_equal(behaviour_of(row), BEHAVIOUR_PATROL);
-    assert_int_equal(steps_rows(&f).target_id[row], 0);
+    assert_int_equal(steps_rows(&f).row[row].target_id, 0);
     told(row, BEHAVIOUR_ATTACK, BEHAVIOUR_PATROL, REASON_TARGET_GONE);
 }
 
@@ -171,17 +171,17 @@ static void test_an_attack_goes_on_with_the_next_enemy_in_sight(void **state)
     uint32_t next = put("tank", 25400.0, 25200.0, FORCE_RED, BEHAVIOUR_HOLD);
     uint32_t row = put("tank", 25000.0, 25000.0, FORCE_BLUE, BEHAVIOUR_PATROL);
     (void)state;
-    steps_rows(&f).heading[row] = HALF_PI;
-    steps_rows(&f).flags[row] = ENTITY_FLAG_FIRE_AT_WILL;
+    steps_rows(&f).row[row].heading = HALF_PI;
+    steps_rows(&f).row[row].flags = ENTITY_FLAG_FIRE_AT_WILL;
     attack(row, enemy, 1000.0);
     fixture_run(&f, 3);
     uint64_t changes = fixture_state(&f).head->tally.agent_changes;
-    steps_rows(&f).state[enemy] = ENTITY_WRECK;
+    steps_rows(&f).row[enemy].state = ENTITY_WRECK;
     fixture_run(&f, 2);
     assert_int_equal(behaviour_of(row), BEHAVIOUR_ATTACK);
-    assert_int_equal(steps_rows(&f).target_slot[row], next);
+    assert_int_equal(steps_rows(&f).row[row].target_slot, next);
     assert_int_equal(fixture_state(&f).head->tally.agent_changes, changes);
-    steps_rows(&f).state[next] = ENTITY_WRECK;
+    steps_rows(&f).row[next].state = ENTITY_WRECK;
     fixture_run(&f, 2);
     assert_int_equal(behaviour_of(row), BEHAVIOUR_PATROL);
 }
@@ -229,16 +229,16 @@ static void test_an_attacker_closes_in_to_its_stand_off_and_fires(void **state)
     uint32_t row = put("tank", 24500.0, 25000.0, FORCE_BLUE, BEHAVIOUR_IDLE);
     (void)state;
     steps_kind(&f, "ship")->resistance_j = 1e12;
-    steps_kind(&f, "ship")->mass_kg = 1e12;         /* the shells' blasts do not push it along */
-    steps_rows(&f).flags[row] |= ENTITY_FLAG_STAND; /* it does not leave to be supplied */
+    steps_kind(&f, "ship")->mass_kg = 1e12; /* the shells' blasts do not push it along */
+    steps_rows(&f).row[row].flags |= ENTITY_FLAG_STAND; /* it does not leave to be supplied */
     attack(row, enemy, 1000.0);
-    steps_rows(&f).reload_tick[row] = 0;
+    steps_rows(&f).row[row].reload_tick = 0;
     fixture_run(&f, (uint32_t)(20.0 * HZ)); /* 330 m: still out of range */
     assert_int_equal(fixture_event_count(&f, EVENT_FIRE), 0);
     fixture_run(&f, (uint32_t)(300.0 * HZ));
-    double distance = 28000.0 - steps_rows(&f).x[row];
+    double distance = 28000.0 - steps_rows(&f).row[row].x;
     assert_true(distance < 0.55 * kind->range_m && distance > 0.4 * kind->range_m);
-    assert_int_equal(steps_rows(&f).rounds[row],
+    assert_int_equal(steps_rows(&f).row[row].rounds,
                      kind->rounds - fixture_event_count(&f, EVENT_FIRE));
     /* It keeps 35 of its 55 rounds for nearer targets (fire_control.h). */
     assert_in_range(fixture_event_count(&f, EVENT_FIRE), 18, 20);
@@ -252,7 +252,7 @@ static void test_an_empty_tank_leaves_it_idle(void **state)
     (void)state;
     fixture_run(&f, (uint32_t)(5.0 * HZ));
     assert_true(steps_speed(&f, row) > 5.0);
-    steps_rows(&f).fuel_l[row] = 0.0;
+    steps_rows(&f).row[row].fuel_l = 0.0;
     fixture_run(&f, 1);
     assert_int_equal(behaviour_of(row), BEHAVIOUR_IDLE);
     told(row, BEHAVIOUR_PATROL, BEHAVIOUR_IDLE, REASON_OUT_OF_FUEL);
@@ -266,15 +266,15 @@ static void test_after_a_bump_it_backs_off_and_then_goes_on(void **state)
     uint32_t row = put("jeep", 25000.0, 25000.0, FORCE_BLUE, BEHAVIOUR_PATROL);
     struct entities e = steps_rows(&f);
     (void)state;
-    e.bumped[row] = 1;
-    e.bump_heading[row] = (float)PI; /* away is south */
+    e.row[row].bumped = 1;
+    e.row[row].bump_heading = (float)PI; /* away is south */
     fixture_run(&f, 1);
     assert_int_equal(behaviour_of(row), BEHAVIOUR_BACK_OFF);
     told(row, BEHAVIOUR_PATROL, BEHAVIOUR_BACK_OFF, REASON_COLLISION);
-    assert_int_equal(steps_rows(&f).bumped[row], 0);
+    assert_int_equal(steps_rows(&f).row[row].bumped, 0);
     fixture_run(&f, (uint32_t)(2.0 * HZ));
     assert_int_equal(behaviour_of(row), BEHAVIOUR_BACK_OFF);
-    assert_true(steps_rows(&f).z[row] > 25001.0);
+    assert_true(steps_rows(&f).row[row].z > 25001.0);
     fixture_run(&f, (uint32_t)HZ);
     assert_int_equal(behaviour_of(row), BEHAVIOUR_PATROL);
 }
@@ -292,14 +292,14 @@ static bool engages(double distance, enum force force, bool at_will)
     uint32_t other =
         put("tank", 25000.0 + 0.6 * distance, 25000.0 - 0.8 * distance, force, BEHAVIOUR_HOLD);
     struct entities e = steps_rows(&f);
-    e.flags[row] = at_will ? ENTITY_FLAG_FIRE_AT_WILL : 0;
-    e.reload_tick[row] = UINT32_MAX;
+    e.row[row].flags = at_will ? ENTITY_FLAG_FIRE_AT_WILL : 0;
+    e.row[row].reload_tick = UINT32_MAX;
     for (int second = 0; second < 300 && behaviour_of(row) != BEHAVIOUR_ATTACK; second++)
         fixture_run(&f, (uint32_t)HZ);
     if (behaviour_of(row) != BEHAVIOUR_ATTACK)
         return false;
     told(row, BEHAVIOUR_IDLE, BEHAVIOUR_ATTACK, REASON_ENEMY_SEEN);
-    assert_int_equal(steps_rows(&f).target_slot[row], other);
+    assert_int_equal(steps_rows(&f).row[row].target_slot, other);
     return true;
 }
 
@@ -323,13 +323,13 @@ static void test_fire_at_will_takes_the_nearest_living_enemy(void **state)
     put("tank", 26800.0, 25000.0, FORCE_RED, BEHAVIOUR_HOLD);
     struct entities e = steps_rows(&f);
     (void)state;
-    e.flags[row] = ENTITY_FLAG_FIRE_AT_WILL;
-    e.reload_tick[row] = UINT32_MAX;
-    e.state[wreck] = ENTITY_WRECK;
+    e.row[row].flags = ENTITY_FLAG_FIRE_AT_WILL;
+    e.row[row].reload_tick = UINT32_MAX;
+    e.row[wreck].state = ENTITY_WRECK;
     for (int second = 0; second < 60 && behaviour_of(row) != BEHAVIOUR_ATTACK; second++)
         fixture_run(&f, (uint32_t)HZ);
     assert_int_equal(behaviour_of(row), BEHAVIOUR_ATTACK);
-    assert_int_equal(steps_rows(&f).target_slot[row], nearest);
+    assert_int_equal(steps_rows(&f).row[row].target_slot, nearest);
 }
 
 /* --- orders ------------------------------------------------------------------------------------*/
@@ -350,12 +350,12 @@ static void test_a_patrol_stays_in_its_area(void **state)
         fixture_run(&f, 1);
         struct entities e = steps_rows(&f);
         for (uint32_t i = 0; i < 12; i++) {
-            const struct area *area = &f.view.world.areas[e.order_arg[i]];
-            assert_true(e.goal_x[i] >= area->x0 && e.goal_x[i] <= area->x1);
-            assert_true(e.goal_z[i] >= area->z0 && e.goal_z[i] <= area->z1);
+            const struct area *area = &f.view.world.areas[e.row[i].order_arg];
+            assert_true(e.row[i].goal_x >= area->x0 && e.row[i].goal_x <= area->x1);
+            assert_true(e.row[i].goal_z >= area->z0 && e.row[i].goal_z <= area->z1);
             /* A goal at the border is passed by a turn's width at most. */
-            assert_true(e.x[i] > area->x0 - 60.0 && e.x[i] < area->x1 + 60.0);
-            assert_true(e.z[i] > area->z0 - 60.0 && e.z[i] < area->z1 + 60.0);
+            assert_true(e.row[i].x > area->x0 - 60.0 && e.row[i].x < area->x1 + 60.0);
+            assert_true(e.row[i].z > area->z0 - 60.0 && e.row[i].z < area->z1 + 60.0);
             way += steps_speed(&f, i) / HZ;
         }
     }
@@ -371,22 +371,22 @@ static void test_a_decision_that_confirms_the_course_leaves_the_controls(void **
         double from_z = 25000.0 + 500.0 * (double)n;
         uint32_t row = put(kinds[n], 25000.0, from_z, FORCE_BLUE, BEHAVIOUR_PATROL);
         struct entities e = steps_rows(&f);
-        e.goal_x[row] = 27000.0;
-        e.goal_z[row] = from_z + 1000.0;
+        e.row[row].goal_x = 27000.0;
+        e.row[row].goal_z = from_z + 1000.0;
         fixture_run(&f, (uint32_t)(15.0 * HZ)); /* it turns */
         e = steps_rows(&f);
-        const float throttle = e.throttle[row];
-        const double heading = e.heading[row];
+        const float throttle = e.row[row].throttle;
+        const double heading = e.row[row].heading;
         assert_true(throttle > 0.7f);
         for (uint32_t frame = 0; frame < (uint32_t)(30.0 * HZ); frame++) {
             fixture_run(&f, 1);
             e = steps_rows(&f);
-            assert_true(e.steer[row] == 0.0f && e.throttle[row] == throttle);
-            assert_true(e.heading[row] == heading);
+            assert_true(e.row[row].steer == 0.0f && e.row[row].throttle == throttle);
+            assert_true(e.row[row].heading == heading);
         }
-        double beside = 0.5 * (e.x[row] - 25000.0) - (e.z[row] - from_z);
+        double beside = 0.5 * (e.row[row].x - 25000.0) - (e.row[row].z - from_z);
         assert_true(fabs(beside) < 10.0);
-        for (uint32_t frame = 0; e.goal_x[row] == 27000.0; frame++) { /* and it arrives */
+        for (uint32_t frame = 0; e.row[row].goal_x == 27000.0; frame++) { /* and it arrives */
             assert_true(frame < (uint32_t)(200.0 * HZ));
             fixture_run(&f, 1);
             e = steps_rows(&f);
@@ -415,11 +415,11 @@ static void test_a_route_is_driven_in_its_order_again_and_again(void **state)
         const double *next = route[passed % 4], *after = route[(passed + 1) % 4];
         if (frame == 0) /* it thinks at ten hertz */
             continue;
-        if (e.goal_x[0] == after[0] && e.goal_z[0] == after[1]) {
-            assert_true(hypot(e.x[0] - next[0], e.z[0] - next[1]) < 25.0 + 1.6);
+        if (e.row[0].goal_x == after[0] && e.row[0].goal_z == after[1]) {
+            assert_true(hypot(e.row[0].x - next[0], e.row[0].z - next[1]) < 25.0 + 1.6);
             passed++;
         } else {
-            assert_true(e.goal_x[0] == next[0] && e.goal_z[0] == next[1]);
+            assert_true(e.row[0].goal_x == next[0] && e.row[0].goal_z == next[1]);
         }
     }
     assert_true(passed > 8);
@@ -432,13 +432,13 @@ static void test_an_interrupted_route_goes_on_to_the_point_it_was_heading_for(vo
     fixture_open(&f, route_text);
     fixture_run(&f, (uint32_t)(3.0 * HZ)); /* on its way to the first */
     struct entities e = steps_rows(&f);
-    assert_true(e.goal_x[0] == route[0][0] && e.goal_z[0] == route[0][1]);
-    e.bumped[0] = 1;
-    e.bump_heading[0] = (float)(1.5 * PI);
+    assert_true(e.row[0].goal_x == route[0][0] && e.row[0].goal_z == route[0][1]);
+    e.row[0].bumped = 1;
+    e.row[0].bump_heading = (float)(1.5 * PI);
     fixture_run(&f, (uint32_t)(4.0 * HZ));
     e = steps_rows(&f);
-    assert_int_equal(e.behaviour[0], BEHAVIOUR_ROUTE);
-    assert_true(e.goal_x[0] == route[0][0] && e.goal_z[0] == route[0][1]);
+    assert_int_equal(e.row[0].behaviour, BEHAVIOUR_ROUTE);
+    assert_true(e.row[0].goal_x == route[0][0] && e.row[0].goal_z == route[0][1]);
 }
 
 int main(void)

@@ -30,12 +30,12 @@ static uint32_t send(const char *kind, struct vec3 from, double heading)
     uint32_t row =
         fixture_put(&f, (struct fixture_entity){.kind = kind, .at = from, .heading_rad = heading});
     struct entities e = steps_rows(&f);
-    e.behaviour[row] = e.order[row] = BEHAVIOUR_PATROL;
-    e.goal_x[row] = from.x + 6000.0 * maths_sin(heading);
-    e.goal_z[row] = from.z - 6000.0 * maths_cos(heading);
+    e.row[row].behaviour = e.row[row].order = BEHAVIOUR_PATROL;
+    e.row[row].goal_x = from.x + 6000.0 * maths_sin(heading);
+    e.row[row].goal_z = from.z - 6000.0 * maths_cos(heading);
     double speed = 0.75 * steps_kind(&f, kind)->max_speed_mps;
-    e.vx[row] = speed * maths_sin(heading);
-    e.vz[row] = -speed * maths_cos(heading);
+    e.row[row].vx = speed * maths_sin(heading);
+    e.row[row].vz = -speed * maths_cos(heading);
     return row;
 }
 
@@ -129,13 +129,13 @@ static void test_one_that_may_roll_out_of_its_turn_is_kept_from(void **state)
                                         .behaviour = BEHAVIOUR_PATROL});
     struct entities e = steps_rows(&f);
     for (int n = 0; n < 2; n++) {
-        e.behaviour[row[n]] = e.order[row[n]] = BEHAVIOUR_PATROL;
-        e.goal_x[row[n]] = n == 0 ? 27000.0 : 23000.0;
-        e.goal_z[row[n]] = n == 0 ? 25000.0 : 26000.0;
+        e.row[row[n]].behaviour = e.row[row[n]].order = BEHAVIOUR_PATROL;
+        e.row[row[n]].goal_x = n == 0 ? 27000.0 : 23000.0;
+        e.row[row[n]].goal_z = n == 0 ? 25000.0 : 26000.0;
     }
-    e.roll[row[1]] = -1.0f;
+    e.row[row[1]].roll = -1.0f;
     fixture_run(&f, 8);
-    assert_true(steps_rows(&f).climb[row[1]] > 0.0f);
+    assert_true(steps_rows(&f).row[row[1]].climb > 0.0f);
 }
 
 /* Of two that are lower than usual, the lower one does not climb towards the other to be as high as
@@ -162,7 +162,7 @@ static double least_gap(uint32_t first, uint32_t end)
     double least = INFINITY;
     for (uint32_t a = first; a < end; a++) {
         for (uint32_t b = a + 1; b < end; b++)
-            least = maths_min(least, hypot(e.x[a] - e.x[b], e.z[a] - e.z[b]));
+            least = maths_min(least, hypot(e.row[a].x - e.row[b].x, e.row[a].z - e.row[b].z));
     }
     return least;
 }
@@ -179,15 +179,15 @@ static void test_those_at_their_base_do_not_collide(void **state)
                      "25000.0, 27000.0, 26000.0]; } );");
     struct entities e = steps_rows(&f);
     for (uint32_t row = 0; row < 22; row++)
-        e.rounds[row] = 0;
+        e.row[row].rounds = 0;
     fixture_run(&f, 100 * HZ);
     for (uint32_t row = 0; row < 22; row++)
-        assert_int_equal(steps_rows(&f).behaviour[row], BEHAVIOUR_RESUPPLY);
+        assert_int_equal(steps_rows(&f).row[row].behaviour, BEHAVIOUR_RESUPPLY);
     assert_true(least_gap(8, 22) > 20.0); /* of the helicopters */
     fixture_run(&f, 240 * HZ);
     /* Setting down on the base counts as a contact with the ground. */
     for (uint32_t row = 0; row < 22; row++)
-        assert_int_equal(steps_rows(&f).damage[row], DAMAGE_NONE);
+        assert_int_equal(steps_rows(&f).row[row].damage, DAMAGE_NONE);
 }
 
 #define RING 12u
@@ -198,7 +198,8 @@ static double least_goal_gap(uint32_t count)
     double least = INFINITY;
     for (uint32_t a = 0; a < count; a++) {
         for (uint32_t b = 0; b < a; b++)
-            least = maths_min(least, hypot(e.goal_x[a] - e.goal_x[b], e.goal_z[a] - e.goal_z[b]));
+            least = maths_min(
+                least, hypot(e.row[a].goal_x - e.row[b].goal_x, e.row[a].goal_z - e.row[b].goal_z));
     }
     return least;
 }
@@ -228,8 +229,8 @@ static void test_those_ordered_home_at_once_do_not_meet(void **state)
     assert_true(least_goal_gap(RING) > 30.0);
     fixture_run(&f, 89 * HZ);
     for (uint32_t row = 0; row < RING; row++) {
-        assert_int_equal(steps_rows(&f).damage[row], DAMAGE_NONE);
-        assert_true(steps_rows(&f).flags[row] & ENTITY_FLAG_LANDED);
+        assert_int_equal(steps_rows(&f).row[row].damage, DAMAGE_NONE);
+        assert_true(steps_rows(&f).row[row].flags & ENTITY_FLAG_LANDED);
     }
 }
 
@@ -250,7 +251,7 @@ static void test_a_jet_does_not_climb_into_another_for_the_ground(void **state)
     print_message("the lower one climbs by up to %.1f m/s, the higher one by %.1f m/s\n", fastest,
                   steps_velocity(&f, high).y);
     assert_true(fastest < 5.0);
-    steps_rows(&f).state[high] = ENTITY_FREE;
+    steps_rows(&f).row[high].state = ENTITY_FREE;
     fixture_run(&f, 2 * HZ);
     assert_true(steps_velocity(&f, low).y > 8.0);
 }
@@ -280,7 +281,7 @@ static void put_idle(const char *kind, uint64_t *random, double low_mps, double 
         .heading_rad = heading};
     uint32_t row = fixture_put(&f, entity);
     struct entities e = steps_rows(&f);
-    e.behaviour[row] = e.order[row] = BEHAVIOUR_IDLE;
+    e.row[row].behaviour = e.row[row].order = BEHAVIOUR_IDLE;
 }
 
 /* Without an order jets circle, helicopters hover. None comes near the ground, wherever and however
@@ -298,8 +299,8 @@ static void test_idle_aircraft_fly_on_over_mountains(void **state)
         for (uint32_t n = 0; n < ROUGH_JETS; n++) {
             put_idle(n % 5 ? "jet" : "helicopter", &random, n % 5 ? 75.0 : 0.0,
                      n % 5 ? 277.0 : 70.0);
-            from_x[n] = steps_rows(&f).x[n];
-            from_z[n] = steps_rows(&f).z[n];
+            from_x[n] = steps_rows(&f).row[n].x;
+            from_z[n] = steps_rows(&f).row[n].z;
         }
         for (int frame = 0; frame < 240 * HZ; frame++) {
             fixture_run(&f, 1);

@@ -29,11 +29,11 @@ static int open_world(void **state)
 static void attack(uint32_t row, uint32_t target)
 {
     struct entities e = steps_rows(&f);
-    e.behaviour[row] = BEHAVIOUR_ATTACK;
+    e.row[row].behaviour = BEHAVIOUR_ATTACK;
     steps_target(&f, row, target);
-    e.goal_x[row] = e.x[target];
-    e.goal_z[row] = e.z[target];
-    e.until_tick[row] = (uint32_t)(fixture_state(&f).head->tick + 300 * HZ);
+    e.row[row].goal_x = e.row[target].x;
+    e.row[row].goal_z = e.row[target].z;
+    e.row[row].until_tick = (uint32_t)(fixture_state(&f).head->tick + 300 * HZ);
 }
 
 /* --- jets --------------------------------------------------------------------------------------*/
@@ -47,9 +47,9 @@ static void put_jets(uint32_t *jet, uint32_t *target)
         jet[n] = steps_put(&f, "jet", (struct vec3){x, 500.0, z - 1000.0 * (n + 1)}, FORCE_BLUE,
                            BEHAVIOUR_IDLE);
         struct entities e = steps_rows(&f);
-        e.heading[jet[n]] = (double)n * TWO_PI / JETS;
-        e.vx[jet[n]] = 250.0 * sin(e.heading[jet[n]]);
-        e.vz[jet[n]] = -250.0 * cos(e.heading[jet[n]]);
+        e.row[jet[n]].heading = (double)n * TWO_PI / JETS;
+        e.row[jet[n]].vx = 250.0 * sin(e.row[jet[n]].heading);
+        e.row[jet[n]].vz = -250.0 * cos(e.row[jet[n]].heading);
         attack(jet[n], target[n]);
     }
 }
@@ -61,7 +61,7 @@ static void test_jets_that_attack_fire_within_a_minute(void **state)
     put_jets(jet, target);
     fixture_run(&f, 60 * HZ);
     for (uint32_t n = 0; n < JETS; n++)
-        fired += steps_rows(&f).rounds[jet[n]] < steps_kind(&f, "jet")->rounds;
+        fired += steps_rows(&f).row[jet[n]].rounds < steps_kind(&f, "jet")->rounds;
     if (fired < 7)
         fail_msg("%u of 8 jets fired", fired);
 }
@@ -75,17 +75,18 @@ static void test_a_jet_extends_after_its_shot_and_flies_home_after_two(void **st
     steps_kind(&f, "truck")->mass_kg = 1e12;
     put_jets(jet, target);
     uint32_t full = steps_kind(&f, "jet")->rounds;
-    for (int frame = 0; frame < 180 * HZ && steps_rows(&f).rounds[jet[0]] > full - 2; frame++) {
+    for (int frame = 0; frame < 180 * HZ && steps_rows(&f).row[jet[0]].rounds > full - 2; frame++) {
         fixture_run(&f, 1);
         struct entities e = steps_rows(&f);
-        double away = hypot(e.x[jet[0]] - e.x[target[0]], e.z[jet[0]] - e.z[target[0]]);
-        if (e.rounds[jet[0]] == full - 1)
+        double away =
+            hypot(e.row[jet[0]].x - e.row[target[0]].x, e.row[jet[0]].z - e.row[target[0]].z);
+        if (e.row[jet[0]].rounds == full - 1)
             farthest = maths_max(farthest, away);
     }
     fixture_run(&f, 2);
     assert_true(farthest > 3500.0);
-    assert_int_equal(steps_rows(&f).rounds[jet[0]], full - 2);
-    assert_int_equal(steps_rows(&f).behaviour[jet[0]], BEHAVIOUR_WITHDRAW);
+    assert_int_equal(steps_rows(&f).row[jet[0]].rounds, full - 2);
+    assert_int_equal(steps_rows(&f).row[jet[0]].behaviour, BEHAVIOUR_WITHDRAW);
 }
 
 /* --- helicopters -------------------------------------------------------------------------------*/
@@ -103,7 +104,7 @@ static void test_a_helicopter_changes_sides_low_and_fires_from_above(void **stat
     attack(row, target);
     for (uint32_t frame = 0, fires = 0; frame < 60 * HZ; frame++) {
         fixture_run(&f, 1);
-        double height = steps_rows(&f).y[row] - FIXTURE_GROUND_M;
+        double height = steps_rows(&f).row[row].y - FIXTURE_GROUND_M;
         if (frame > 10 * HZ)
             low = maths_min(low, height);
         if (fixture_event_count(&f, EVENT_FIRE) > fires && frame > 10 * HZ)
@@ -124,7 +125,7 @@ static void test_a_helicopter_stays_out_of_reach_of_air_defence(void **state)
                              BEHAVIOUR_IDLE);
     double nearest = INFINITY;
     (void)state;
-    steps_rows(&f).flags[flak] = ENTITY_FLAG_FIRE_AT_WILL | ENTITY_FLAG_STAND;
+    steps_rows(&f).row[flak].flags = ENTITY_FLAG_FIRE_AT_WILL | ENTITY_FLAG_STAND;
     steps_kind(&f, "flak")->resistance_j = 1e12;
     steps_kind(&f, "flak")->mass_kg = 1e12;
     attack(row, flak);
@@ -149,7 +150,7 @@ static uint32_t flak_fires(const char *kind, double height, double distance)
         steps_put(&f, "flak", (struct vec3){25000.0, 100.0, 25000.0}, FORCE_BLUE, BEHAVIOUR_IDLE);
     steps_put(&f, kind, (struct vec3){25000.0, 100.0 + height, 25000.0 - distance}, FORCE_RED,
               BEHAVIOUR_HOLD);
-    steps_rows(&f).flags[row] = ENTITY_FLAG_FIRE_AT_WILL;
+    steps_rows(&f).row[row].flags = ENTITY_FLAG_FIRE_AT_WILL;
     fixture_run(&f, 60 * HZ);
     return fixture_event_count(&f, EVENT_FIRE);
 }
@@ -176,10 +177,10 @@ static void test_aircraft_evade_flak(void **state)
         uint32_t row = steps_put(&f, kinds[n], (struct vec3){25000.0, 500.0, 26000.0}, FORCE_BLUE,
                                  BEHAVIOUR_IDLE);
         struct entities e = steps_rows(&f);
-        e.threat_slot[row] = flak;
-        e.threat_id[row] = e.id[flak];
+        e.row[row].threat_slot = flak;
+        e.row[row].threat_id = e.row[flak].id;
         fixture_run(&f, 1);
-        assert_int_equal(steps_rows(&f).behaviour[row], BEHAVIOUR_FLEE);
+        assert_int_equal(steps_rows(&f).row[row].behaviour, BEHAVIOUR_FLEE);
         const struct event *event = fixture_event(&f, EVENT_AGENT, 0);
         assert_int_equal(event->agent.because, REASON_SUPPRESSED);
     }
@@ -198,11 +199,11 @@ static double silent_s(uint32_t seed)
     uint32_t row =
         steps_put(&f, "tank", (struct vec3){25000.0, 100.0, 25800.0}, FORCE_BLUE, BEHAVIOUR_IDLE);
     attack(row, target);
-    steps_rows(&f).flags[row] = ENTITY_FLAG_STAND | ENTITY_FLAG_BURST;
-    steps_rows(&f).reload_tick[row] = HZ; /* its agent decides first */
+    steps_rows(&f).row[row].flags = ENTITY_FLAG_STAND | ENTITY_FLAG_BURST;
+    steps_rows(&f).row[row].reload_tick = HZ; /* its agent decides first */
     for (int frame = 0; frame < 60 * HZ; frame++) {
         fixture_run(&f, 1);
-        assert_false(steps_rows(&f).flags[row] & ENTITY_FLAG_BURST && frame > 2);
+        assert_false(steps_rows(&f).row[row].flags & ENTITY_FLAG_BURST && frame > 2);
         if (fixture_event_count(&f, EVENT_FIRE) > 0)
             return (double)frame / HZ;
     }
@@ -236,7 +237,7 @@ static void test_a_tank_fires_two_to_four_rounds_and_moves(void **state)
     attack(row, target);
     for (int frame = 0; frame < 120 * HZ; frame++) {
         fixture_run(&f, 1);
-        enum behaviour now = (enum behaviour)steps_rows(&f).behaviour[row];
+        enum behaviour now = (enum behaviour)steps_rows(&f).row[row].behaviour;
         if (now == BEHAVIOUR_REPOSITION && before != now) {
             uint32_t rounds = fixture_event_count(&f, EVENT_FIRE);
             assert_in_range(rounds - fired, 2, 4);
@@ -266,10 +267,10 @@ static void test_a_position_behind_a_crest_hides_the_hull(void **state)
         steps_put(&f, "tank", (struct vec3){25600.0, 100.0, 25000.0}, FORCE_RED, BEHAVIOUR_HOLD);
     uint32_t row =
         steps_put(&f, "tank", (struct vec3){25000.0, 102.0, 25000.0}, FORCE_BLUE, BEHAVIOUR_IDLE);
-    steps_rows(&f).heading[row] = HALF_PI;
+    steps_rows(&f).row[row].heading = HALF_PI;
     steps_serial_context(&f, &step, &context);
     goal_position(&step, row, enemy);
-    struct vec3 at = {step.m->goal_x[row], 0.0, step.m->goal_z[row]};
+    struct vec3 at = {step.m->row[row].goal_x, 0.0, step.m->row[row].goal_z};
     double height = steps_kind(&f, "tank")->height_m, ground = steps_ground_at(&f, at.x, at.z);
     struct vec3 eye = target_search_eye(&step, enemy);
     assert_true(hypot(at.x - 25000.0, at.z - 25000.0) < 91.0);
@@ -291,11 +292,11 @@ static enum behaviour fired_upon(uint32_t *row, uint32_t *enemy)
                      (struct vec3){25000.0, steps_ground_at(&f, 25000.0, 25000.0), 25000.0},
                      FORCE_BLUE, BEHAVIOUR_IDLE);
     struct entities e = steps_rows(&f);
-    e.heading[*row] = HALF_PI;
-    e.threat_slot[*row] = *enemy;
-    e.threat_id[*row] = e.id[*enemy];
+    e.row[*row].heading = HALF_PI;
+    e.row[*row].threat_slot = *enemy;
+    e.row[*row].threat_id = e.row[*enemy].id;
     fixture_run(&f, 1);
-    return (enum behaviour)steps_rows(&f).behaviour[*row];
+    return (enum behaviour)steps_rows(&f).row[*row].behaviour;
 }
 
 /* Returns true if the ground hides the hull of a row from another, and not its gun. */
@@ -322,14 +323,15 @@ static void test_first_fired_upon_a_crew_fights_from_cover_that_is_near(void **s
     steps_ground(&f, ridge, NULL);
     fixture_threads(&f, 1);
     assert_int_equal(fired_upon(&row, &enemy), BEHAVIOUR_REPOSITION);
-    assert_int_equal(steps_rows(&f).target_id[row], steps_rows(&f).id[enemy]);
-    assert_true(steps_rows(&f).owner_slot[row] != 0); /* behind its smoke */
+    assert_int_equal(steps_rows(&f).row[row].target_id, steps_rows(&f).row[enemy].id);
+    assert_true(steps_rows(&f).row[row].owner_slot != 0); /* behind its smoke */
     fixture_run(&f, 20 * HZ);
     struct entities e = steps_rows(&f);
-    assert_int_equal(e.behaviour[row], BEHAVIOUR_ATTACK);
-    assert_int_equal(e.target_id[row], e.id[enemy]);
+    assert_int_equal(e.row[row].behaviour, BEHAVIOUR_ATTACK);
+    assert_int_equal(e.row[row].target_id, e.row[enemy].id);
     print_message("it fights %.0f m away at %.1f m/s: %s\n",
-                  hypot(e.x[row] - 25000.0, e.z[row] - 25000.0), hypot(e.vx[row], e.vz[row]),
+                  hypot(e.row[row].x - 25000.0, e.row[row].z - 25000.0),
+                  hypot(e.row[row].vx, e.row[row].vz),
                   hull_hidden(row, enemy) ? "hull down" : "open");
     assert_true(hull_hidden(row, enemy));
 }
@@ -349,21 +351,21 @@ static void test_a_crew_does_not_leave_a_place_that_hides_its_hull(void **state)
         steps_put(&f, "tank", (struct vec3){25000.0, 102.0, 25000.0}, FORCE_BLUE, BEHAVIOUR_IDLE);
     steps_serial_context(&f, &step, &context);
     goal_position(&step, row, enemy);
-    struct vec3 at = {step.m->goal_x[row], 0.0, step.m->goal_z[row]};
+    struct vec3 at = {step.m->row[row].goal_x, 0.0, step.m->row[row].goal_z};
     at.y = steps_ground_at(&f, at.x, at.z);
     steps_empty(&f);
     enemy = steps_put(&f, "tank", (struct vec3){25000.0 + far, 100.0, 25000.0}, FORCE_RED,
                       BEHAVIOUR_HOLD);
     row = steps_put(&f, "tank", at, FORCE_BLUE, BEHAVIOUR_IDLE);
-    steps_rows(&f).heading[row] = HALF_PI;
-    steps_rows(&f).flags[row] |= ENTITY_FLAG_STAND;
+    steps_rows(&f).row[row].heading = HALF_PI;
+    steps_rows(&f).row[row].flags |= ENTITY_FLAG_STAND;
     attack(row, enemy);
     assert_true(hull_hidden(row, enemy));
     fixture_run(&f, 5 * HZ);
     struct entities e = steps_rows(&f);
     print_message("target %.0f m away: it has moved %.1f m in 5 s\n", far,
-                  hypot(e.x[row] - at.x, e.z[row] - at.z));
-    assert_true(hypot(e.x[row] - at.x, e.z[row] - at.z) < 3.0);
+                  hypot(e.row[row].x - at.x, e.row[row].z - at.z));
+    assert_true(hypot(e.row[row].x - at.x, e.row[row].z - at.z) < 3.0);
 }
 
 static void test_a_crew_that_flees_takes_the_nearest_cover(void **state)
@@ -379,8 +381,8 @@ static void test_a_crew_that_flees_takes_the_nearest_cover(void **state)
         steps_put(&f, "jeep", (struct vec3){24920.0, 101.0, 25000.0}, FORCE_BLUE, BEHAVIOUR_IDLE);
     steps_serial_context(&f, &step, &context);
     goal_cover(&step, row, enemy);
-    double away = hypot(step.m->goal_x[row] - 24920.0, step.m->goal_z[row] - 25000.0);
-    struct vec3 at = {step.m->goal_x[row], 0.0, step.m->goal_z[row]};
+    double away = hypot(step.m->row[row].goal_x - 24920.0, step.m->row[row].goal_z - 25000.0);
+    struct vec3 at = {step.m->row[row].goal_x, 0.0, step.m->row[row].goal_z};
     at.y = steps_ground_at(&f, at.x, at.z) + steps_kind(&f, "jeep")->height_m;
     print_message("cover is %.0f m away\n", away);
     assert_true(away < 76.0);
@@ -397,15 +399,16 @@ static void test_another_burst_keeps_a_crew_in_cover(void **state)
         uint32_t row = steps_put(&f, "tank", (struct vec3){25000.0, 100.0, 25000.0}, FORCE_BLUE,
                                  BEHAVIOUR_FLEE);
         struct entities e = steps_rows(&f);
-        e.order[row] = BEHAVIOUR_IDLE;
-        e.goal_x[row] = e.x[row];
-        e.goal_z[row] = e.z[row];
-        e.until_tick[row] = (uint32_t)fixture_state(&f).head->tick + HZ;
-        e.flags[row] = burst ? ENTITY_FLAG_BURST : 0;
+        e.row[row].order = BEHAVIOUR_IDLE;
+        e.row[row].goal_x = e.row[row].x;
+        e.row[row].goal_z = e.row[row].z;
+        e.row[row].until_tick = (uint32_t)fixture_state(&f).head->tick + HZ;
+        e.row[row].flags = burst ? ENTITY_FLAG_BURST : 0;
         fixture_run(&f, 9 * HZ);
-        assert_int_equal(steps_rows(&f).behaviour[row], burst ? BEHAVIOUR_FLEE : BEHAVIOUR_IDLE);
+        assert_int_equal(steps_rows(&f).row[row].behaviour,
+                         burst ? BEHAVIOUR_FLEE : BEHAVIOUR_IDLE);
         fixture_run(&f, 23 * HZ);
-        assert_int_equal(steps_rows(&f).behaviour[row], BEHAVIOUR_IDLE);
+        assert_int_equal(steps_rows(&f).row[row].behaviour, BEHAVIOUR_IDLE);
     }
 }
 
@@ -420,11 +423,11 @@ static void test_a_carrier_drives_to_where_its_rounds_penetrate(void **state)
         steps_put(&f, "tank", (struct vec3){25000.0, 100.0, 23950.0}, FORCE_RED, BEHAVIOUR_HOLD);
     for (int frame = 0; frame < 60 * HZ; frame++) {
         attack(row, target);
-        steps_rows(&f).reload_tick[row] =
+        steps_rows(&f).row[row].reload_tick =
             UINT32_MAX; /* it does not fire, and does not move after it */
         fixture_run(&f, 1);
     }
-    double away = steps_rows(&f).z[row] - steps_rows(&f).z[target];
+    double away = steps_rows(&f).row[row].z - steps_rows(&f).row[target].z;
     print_message("it stops %.0f m away\n", away);
     assert_true(away > 600.0 && away < 800.0);
 }

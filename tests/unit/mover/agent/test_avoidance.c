@@ -36,9 +36,9 @@ static uint32_t send(const char *kind, double x, double z, double goal_x, double
                                                            .heading_rad = heading,
                                                            .behaviour = BEHAVIOUR_PATROL});
     struct entities e = steps_rows(&f);
-    e.behaviour[row] = e.order[row] = BEHAVIOUR_PATROL;
-    e.goal_x[row] = goal_x;
-    e.goal_z[row] = goal_z;
+    e.row[row].behaviour = e.row[row].order = BEHAVIOUR_PATROL;
+    e.row[row].goal_x = goal_x;
+    e.row[row].goal_z = goal_z;
     return row;
 }
 
@@ -76,9 +76,9 @@ static void test_a_wood_is_crossed(void **state)
         plant(&random);
         uint32_t row = send(kinds[n % 3], 25000.0, fixture_uniform(&random, 24930.0, 25070.0),
                             25420.0, 25000.0);
-        for (int frame = 0; frame < 120 * HZ && steps_rows(&f).x[row] < 25380.0; frame++)
+        for (int frame = 0; frame < 120 * HZ && steps_rows(&f).row[row].x < 25380.0; frame++)
             fixture_run(&f, 1);
-        crossed += steps_rows(&f).x[row] >= 25380.0;
+        crossed += steps_rows(&f).row[row].x >= 25380.0;
         hits += (int)fixture_event_count(&f, EVENT_COLLISION);
     }
     print_message("%d of 12 crossed, %d trees hit\n", crossed, hits);
@@ -114,10 +114,10 @@ static double drive_along(double *gets_m)
     double aside = 0.0;
     for (int frame = 0; frame < 40 * HZ; frame++) {
         fixture_run(&f, 1);
-        aside = maths_max(aside, fabs(steps_rows(&f).z[row] - 25000.0));
+        aside = maths_max(aside, fabs(steps_rows(&f).row[row].z - 25000.0));
     }
     assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 0);
-    *gets_m = steps_rows(&f).x[row] - 25000.0;
+    *gets_m = steps_rows(&f).row[row].x - 25000.0;
     return aside;
 }
 
@@ -145,7 +145,7 @@ static void test_it_stops_in_a_street_before_it_turns(void **state)
     fixture_run(&f, 12 * HZ - 1);
     assert_true(steps_speed(&f, 0) > 10.0);
     fixture_run(&f, 10 * HZ);
-    assert_true(fabs(maths_wrap_half(steps_rows(&f).heading[0] - PI)) < 0.05);
+    assert_true(fabs(maths_wrap_half(steps_rows(&f).row[0].heading - PI)) < 0.05);
     assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 0);
 }
 
@@ -163,12 +163,12 @@ static void test_the_gun_does_not_touch_a_house(void **state)
         uint16_t kind = kind_find(f.view.world.kinds, f.view.world.counts.kinds, "building");
         ((struct kind *)(uintptr_t)f.view.world.kinds)[kind].outline = true;
         uint32_t row = send("tank", 25000.0, 25000.0, 25400.0, 25000.0);
-        steps_rows(&f).turret[row] = (float)(0.5 * PI * n);
+        steps_rows(&f).row[row].turret = (float)(0.5 * PI * n);
         for (int frame = 0; frame < 20 * HZ; frame++) {
-            steps_rows(&f).turret[row] = (float)(maths_wrap_half(0.5 * PI * n));
+            steps_rows(&f).row[row].turret = (float)(maths_wrap_half(0.5 * PI * n));
             fixture_run(&f, 1);
         }
-        print_message("gun %d degrees off: at x = %.1f\n", 90 * n, steps_rows(&f).x[row]);
+        print_message("gun %d degrees off: at x = %.1f\n", 90 * n, steps_rows(&f).row[row].x);
         assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 0);
     }
 }
@@ -188,10 +188,10 @@ static void test_it_sees_one_that_stands_down_the_slope(void **state)
     fixture_threads(&f, 1);
     fixture_put(&f, (struct fixture_entity){.kind = "truck", .at = {25200.0, 80.0, 25000.0}});
     uint32_t row = send("truck", 25000.0, 25000.0, 25500.0, 25000.0);
-    while (steps_rows(&f).dodge[row] == 0.0f && steps_rows(&f).x[row] < 25190.0)
+    while (steps_rows(&f).row[row].dodge == 0.0f && steps_rows(&f).row[row].x < 25190.0)
         fixture_run(&f, 1);
-    print_message("goes around it from %.0f m on\n", 25200.0 - steps_rows(&f).x[row]);
-    assert_true(steps_rows(&f).x[row] < 25140.0);
+    print_message("goes around it from %.0f m on\n", 25200.0 - steps_rows(&f).row[row].x);
+    assert_true(steps_rows(&f).row[row].x < 25140.0);
     fixture_run(&f, 20 * HZ);
     assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 0);
 }
@@ -210,11 +210,11 @@ static void test_head_on_they_pass_each_other_on_the_right(void **state)
         for (int frame = 0; frame < 30 * HZ; frame++) {
             fixture_run(&f, 1);
             struct entities e = steps_rows(&f);
-            double dx = e.x[a] - e.x[b], dz = e.z[a] - e.z[b];
+            double dx = e.row[a].x - e.row[b].x, dz = e.row[a].z - e.row[b].z;
             if (sqrt(dx * dx + dz * dz) < least) {
                 least = sqrt(dx * dx + dz * dz);
-                right[0] = -(e.x[a] - 25000.0) * cosine + (e.z[a] - 25000.0) * sine;
-                right[1] = (e.x[b] - 25000.0) * cosine - (e.z[b] - 25000.0) * sine;
+                right[0] = -(e.row[a].x - 25000.0) * cosine + (e.row[a].z - 25000.0) * sine;
+                right[1] = (e.row[b].x - 25000.0) * cosine - (e.row[b].z - 25000.0) * sine;
             }
         }
         assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 0);
@@ -261,13 +261,13 @@ static double passes_at(const char *kind, double x, double z)
 {
     uint32_t row = send(kind, 25000.0, 25000.0, 25260.0, 25000.0);
     double least = INFINITY;
-    for (int frame = 0; frame < 60 * HZ && steps_rows(&f).x[row] < 25200.0; frame++) {
+    for (int frame = 0; frame < 60 * HZ && steps_rows(&f).row[row].x < 25200.0; frame++) {
         fixture_run(&f, 1);
         const struct entities e = steps_rows(&f);
-        const double dx = e.x[row] - x, dz = e.z[row] - z;
+        const double dx = e.row[row].x - x, dz = e.row[row].z - z;
         least = maths_min(least, sqrt(dx * dx + dz * dz));
     }
-    assert_true(steps_rows(&f).x[row] >= 25200.0);
+    assert_true(steps_rows(&f).row[row].x >= 25200.0);
     return least;
 }
 
@@ -310,10 +310,10 @@ static void test_nobody_turns_over_in_a_field_of_craters(void **state)
         for (int second = 0; second < 60; second++) {
             fixture_run(&f, HZ);
             for (int n = 0; n < JEEPS; n++)
-                farthest[n] = maths_max(farthest[n], steps_rows(&f).x[row[n]]);
+                farthest[n] = maths_max(farthest[n], steps_rows(&f).row[row[n]].x);
         }
         for (int n = 0; n < JEEPS; n++) {
-            assert_int_equal(steps_rows(&f).state[row[n]], ENTITY_ACTIVE);
+            assert_int_equal(steps_rows(&f).row[row[n]].state, ENTITY_ACTIVE);
             through += farthest[n] > 25300.0;
         }
     }
@@ -331,12 +331,12 @@ static void test_it_stops_before_obstacles_that_it_cannot_pass(void **state)
     uint32_t row = send("jeep", 24900.0, 25000.0, 25400.0, 25000.0);
     for (int frame = 0; frame < 30 * HZ; frame++) {
         struct entities e = steps_rows(&f);
-        e.goal_x[row] = 25400.0;
-        e.goal_z[row] = 25000.0;
+        e.row[row].goal_x = 25400.0;
+        e.row[row].goal_z = 25000.0;
         fixture_run(&f, 1);
         e = steps_rows(&f);
-        assert_true(e.x[row] < 25062.5 + fords_m);
-        assert_true(e.ease[row] >= 0.0f && e.ease[row] <= 1.0f);
+        assert_true(e.row[row].x < 25062.5 + fords_m);
+        assert_true(e.row[row].ease >= 0.0f && e.row[row].ease <= 1.0f);
     }
 }
 
@@ -412,12 +412,12 @@ static void test_nobody_drives_down_a_mountain_side(void **state)
     fixture_threads(&f, 1);
     for (int n = 0; n < 4; n++) {
         row[n] = send(kinds[n], 24800.0, 24700.0 + 200.0 * n, 25600.0, 24700.0 + 200.0 * n);
-        steps_rows(&f).y[row[n]] = 400.0;
+        steps_rows(&f).row[row[n]].y = 400.0;
     }
     for (int frame = 0; frame < 60 * HZ; frame++) {
         fixture_run(&f, 1);
         for (int n = 0; n < 4; n++)
-            assert_true(steps_rows(&f).x[row[n]] < 25005.0);
+            assert_true(steps_rows(&f).row[row[n]].x < 25005.0);
     }
 }
 
@@ -449,16 +449,16 @@ static void test_a_patrol_goes_around_a_steep_hill_and_over_a_steep_ridge(void *
     steps_ground(&f, hill_and_ridge, NULL);
     fixture_threads(&f, 1);
     uint32_t row = send("tank", 25000.0, 25000.0, 27000.0, 25000.0);
-    for (int frame = 0; frame < 300 * HZ && steps_rows(&f).x[row] < 26800.0; frame++) {
+    for (int frame = 0; frame < 300 * HZ && steps_rows(&f).row[row].x < 26800.0; frame++) {
         fixture_run(&f, 1);
         struct entities e = steps_rows(&f);
-        if (e.x[row] < 25800.0)
-            highest_m = maths_max(highest_m, e.y[row] - 100.0);
+        if (e.row[row].x < 25800.0)
+            highest_m = maths_max(highest_m, e.row[row].y - 100.0);
     }
     print_message("it was %.1f m high on a hill of %.0f m\n", highest_m,
                   hill_of(HILL_SLOPE, HILL_M));
     assert_true(highest_m < 0.5 * hill_of(HILL_SLOPE, HILL_M));
-    assert_true(steps_rows(&f).x[row] > 26800.0);
+    assert_true(steps_rows(&f).row[row].x > 26800.0);
 }
 
 /* Trucks and two others drive up a valley in the White Mountains to a bank of 36 degrees, 10 m
@@ -479,14 +479,14 @@ static void test_a_patrol_turns_aside_before_a_bank(void **state)
         uint32_t row = send(kinds[n], 22695.0, 24402.0, 21710.0, 24228.0);
         struct entities e = steps_rows(&f);
         double most = 0.0;
-        e.y[row] = steps_ground_at(&f, e.x[row], e.z[row]);
+        e.row[row].y = steps_ground_at(&f, e.row[row].x, e.row[row].z);
         for (int frame = 0; frame < 60 * HZ; frame++) {
             fixture_run(&f, 1);
             e = steps_rows(&f);
-            most = maths_max(most, maths_max(fabs(e.pitch[row]), fabs(e.roll[row])));
+            most = maths_max(most, maths_max(fabs(e.row[row].pitch), fabs(e.row[row].roll)));
         }
         print_message("%s leans by up to %.0f degrees\n", kinds[n], most * DEG_PER_RAD);
-        assert_int_equal(e.state[row], ENTITY_ACTIVE);
+        assert_int_equal(e.row[row].state, ENTITY_ACTIVE);
         assert_true(most < 33.0 * RAD_PER_DEG);
     }
 }
@@ -514,13 +514,13 @@ static void test_aircraft_slow_down_for_ridges_that_they_have_to_climb(void **st
     for (int n = 0; n < 4; n++)
         row[n] = send(kinds[n], 25000.0, 24700.0 + 200.0 * n, 28000.0, 24000.0 + 700.0 * n);
     for (int n = 0; n < 4; n++)
-        steps_rows(&f).y[row[n]] = 130.0;
+        steps_rows(&f).row[row[n]].y = 130.0;
     for (int frame = 0; frame < 240 * HZ; frame++) {
         fixture_run(&f, 1);
         struct entities e = steps_rows(&f);
         for (int n = 0; n < 4; n++) {
-            assert_true(e.state[row[n]] == ENTITY_ACTIVE);
-            over[n] |= e.x[row[n]] > 27400.0;
+            assert_true(e.row[row[n]].state == ENTITY_ACTIVE);
+            over[n] |= e.row[row[n]].x > 27400.0;
         }
     }
     assert_true(over[0] && over[1] && over[2] && over[3]);
@@ -545,16 +545,16 @@ static void test_a_helicopter_slows_down_before_it_turns_over_a_slope(void **sta
     fixture_threads(&f, 1);
     uint32_t row = send("helicopter", 25000.0, 25000.0, 28000.0, 24950.0);
     struct entities e = steps_rows(&f);
-    e.y[row] = 160.0 + 45.0;
-    e.vx[row] = -56.0;
-    e.vy[row] = 11.0;
-    e.heading[row] = 1.5 * PI;
+    e.row[row].y = 160.0 + 45.0;
+    e.row[row].vx = -56.0;
+    e.row[row].vy = 11.0;
+    e.row[row].heading = 1.5 * PI;
     for (int frame = 0; frame < 60 * HZ; frame++) {
         fixture_run(&f, 1);
-        if (steps_rows(&f).damage[row] != DAMAGE_NONE)
+        if (steps_rows(&f).row[row].damage != DAMAGE_NONE)
             fail_msg("it strikes the ground after %.1f s", frame / (double)HZ);
     }
-    assert_true(steps_rows(&f).x[row] > 26000.0); /* on its way */
+    assert_true(steps_rows(&f).row[row].x > 26000.0); /* on its way */
 }
 
 static void test_a_driver_is_left_alone(void **state)
@@ -566,7 +566,7 @@ static void test_a_driver_is_left_alone(void **state)
     steps_drive(&f, row, 1.0, 0.0, 0.0);
     fixture_run(&f, 10 * HZ);
     assert_true(fixture_event_count(&f, EVENT_COLLISION) > 0);
-    assert_true(steps_rows(&f).dodge[row] == 0.0f && steps_rows(&f).ease[row] == 0.0f);
+    assert_true(steps_rows(&f).row[row].dodge == 0.0f && steps_rows(&f).row[row].ease == 0.0f);
 }
 
 static uint64_t crowd(uint32_t threads)

@@ -83,7 +83,7 @@ static void test_who_is_thrown_about_brakes(void **state)
     struct serial_context context;
     uint32_t row = put("truck", 20.0, 0.0, 0.0);
     (void)state;
-    steps_rows(&f).spin_x[row] = 0.5;
+    steps_rows(&f).row[row].spin_x = 0.5;
     steps_serial_context(&f, &step, &context);
     assert_true(fabs(driving_pace(&step, row, HALF_PI) - 12.0) < 1e-9);
 }
@@ -105,7 +105,7 @@ static double slowest_in_bend(const char *corner_to)
     for (int frame = 0; frame < 60 * HZ; frame++) {
         fixture_run(&f, 1);
         struct entities e = steps_rows(&f);
-        double dx = e.x[0] - 25000.0, dz = e.z[0] - 25000.0;
+        double dx = e.row[0].x - 25000.0, dz = e.row[0].z - 25000.0;
         if (dx * dx + dz * dz < 40.0 * 40.0)
             least = maths_min(least, steps_speed(&f, 0));
     }
@@ -141,18 +141,18 @@ static void test_trucks_come_down_a_mountain_on_their_wheels(void **state)
         fixture_shipped_dir());
     fixture_close(&f);
     fixture_open(&f, text);
-    double top = steps_rows(&f).y[0], steepest = 0.0, fastest = 0.0;
+    double top = steps_rows(&f).row[0].y, steepest = 0.0, fastest = 0.0;
     for (int frame = 0; frame < 900 * HZ; frame++) {
         fixture_run(&f, 1);
         struct entities e = steps_rows(&f);
         for (uint32_t i = 0; i < 6; i++) {
-            assert_int_equal(e.state[i], ENTITY_ACTIVE);
-            assert_in_range(e.damage[i], DAMAGE_NONE, DAMAGE_LOW);
-            steepest = maths_max(steepest, fabs(e.roll[i]));
+            assert_int_equal(e.row[i].state, ENTITY_ACTIVE);
+            assert_in_range(e.row[i].damage, DAMAGE_NONE, DAMAGE_LOW);
+            steepest = maths_max(steepest, fabs(e.row[i].roll));
             fastest = maths_max(fastest, steps_speed(&f, i));
         }
     }
-    double down = top - steps_rows(&f).y[0];
+    double down = top - steps_rows(&f).row[0].y;
     print_message("%.0f m down in 15 minutes, roll up to %.0f degrees, up to %.1f m/s\n", down,
                   steepest / RAD_PER_DEG, fastest);
     assert_true(down > 1000.0);

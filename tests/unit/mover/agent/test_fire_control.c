@@ -95,17 +95,17 @@ static void test_a_tank_fires_no_round_at_a_jet(void **state)
         steps_put(&f, "jet", (struct vec3){25000.0, 300.0, 26000.0}, FORCE_RED, BEHAVIOUR_PATROL);
     struct entities e = steps_rows(&f);
     (void)state;
-    e.flags[tank] |= ENTITY_FLAG_FIRE_AT_WILL | ENTITY_FLAG_STAND;
-    e.flags[jet] |= ENTITY_FLAG_HOLD_FIRE;
+    e.row[tank].flags |= ENTITY_FLAG_FIRE_AT_WILL | ENTITY_FLAG_STAND;
+    e.row[jet].flags |= ENTITY_FLAG_HOLD_FIRE;
     for (int second = 0; second < 30; second++) {
         e = steps_rows(&f);
-        e.threat_slot[tank] = jet, e.threat_id[tank] = e.id[jet];
+        e.row[tank].threat_slot = jet, e.row[tank].threat_id = e.row[jet].id;
         fixture_run(&f, 60);
-        assert_int_equal(steps_rows(&f).behaviour[tank], BEHAVIOUR_IDLE);
+        assert_int_equal(steps_rows(&f).row[tank].behaviour, BEHAVIOUR_IDLE);
     }
     print_message("acceptance: | %-32s | %-12s | %6u |\n", "rounds of a tank's gun at jets", "0",
-                  steps_kind(&f, "tank")->rounds - steps_rows(&f).rounds[tank]);
-    assert_int_equal(steps_rows(&f).rounds[tank], steps_kind(&f, "tank")->rounds);
+                  steps_kind(&f, "tank")->rounds - steps_rows(&f).row[tank].rounds);
+    assert_int_equal(steps_rows(&f).row[tank].rounds, steps_kind(&f, "tank")->rounds);
 }
 
 static void test_a_fast_helicopter_is_no_target_for_a_tank_gun(void **state)
@@ -117,10 +117,10 @@ static void test_a_fast_helicopter_is_no_target_for_a_tank_gun(void **state)
                            BEHAVIOUR_HOLD);
     struct step_context step;
     struct serial_context context;
-    steps_rows(&f).vx[b] = 50.0;
+    steps_rows(&f).row[b].vx = 50.0;
     steps_serial_context(&f, &step, &context);
     assert_false(fire_control_suits(&step, a, b));
-    steps_rows(&f).vx[b] = 5.0;
+    steps_rows(&f).row[b].vx = 5.0;
     assert_true(fire_control_suits(&step, a, b));
 }
 
@@ -153,22 +153,22 @@ static uint32_t rounds_at_a_tank(const char *kind, bool shot, uint8_t flags,
     uint32_t tank =
         steps_put(&f, "tank", (struct vec3){25000.0, 100.0, 24400.0}, FORCE_RED, BEHAVIOUR_HOLD);
     struct entities e = steps_rows(&f);
-    uint32_t before = e.rounds[row];
+    uint32_t before = e.row[row].rounds;
     if (steps_kind(&f, kind)->domain == DOMAIN_AIR)
-        e.y[row] = 125.0;
-    e.flags[row] |= flags;
+        e.row[row].y = 125.0;
+    e.row[row].flags |= flags;
     *behaviour = BEHAVIOUR_IDLE;
     for (int frame = 0; frame < (int)(60.0 * HZ); frame++) {
         e = steps_rows(&f);
         if (shot && frame % 120 == 60)
-            e.threat_slot[row] = tank, e.threat_id[row] = e.id[tank];
+            e.row[row].threat_slot = tank, e.row[row].threat_id = e.row[tank].id;
         fixture_run(&f, 1);
         if (*behaviour == BEHAVIOUR_IDLE)
-            *behaviour = (enum behaviour)steps_rows(&f).behaviour[row];
+            *behaviour = (enum behaviour)steps_rows(&f).row[row].behaviour;
         if (shot && frame == 61)
             assert_true((flags & ENTITY_FLAG_STAND) || *behaviour != BEHAVIOUR_IDLE);
     }
-    uint32_t fired = before - steps_rows(&f).rounds[row];
+    uint32_t fired = before - steps_rows(&f).row[row].rounds;
     steps_empty(&f);
     return fired;
 }
@@ -215,7 +215,7 @@ static double reach(const char *shooter, const char *target, double rounds_left)
     struct serial_context context;
     steps_serial_context(&f, &step, &context);
     const struct kind *kind = steps_kind(&f, shooter);
-    step.m->rounds[a] = (uint32_t)(rounds_left * kind->rounds);
+    step.m->row[a].rounds = (uint32_t)(rounds_left * kind->rounds);
     return fire_control_reach_m(&step, a, b) / kind->range_m;
 }
 
@@ -267,13 +267,13 @@ static enum behaviour with_kept_rounds(double away_m, uint8_t flags, uint32_t *f
               BEHAVIOUR_HOLD);
     struct entities e = steps_rows(&f);
     enum behaviour behaviour = BEHAVIOUR_IDLE;
-    e.rounds[row] = 30;
-    e.flags[row] |= flags | ENTITY_FLAG_FIRE_AT_WILL;
+    e.row[row].rounds = 30;
+    e.row[row].flags |= flags | ENTITY_FLAG_FIRE_AT_WILL;
     for (int frame = 0; frame < (int)(60.0 * HZ) && behaviour != BEHAVIOUR_WITHDRAW; frame++) {
         fixture_run(&f, 1);
-        behaviour = (enum behaviour)steps_rows(&f).behaviour[row];
+        behaviour = (enum behaviour)steps_rows(&f).row[row].behaviour;
     }
-    *fired = 30 - steps_rows(&f).rounds[row];
+    *fired = 30 - steps_rows(&f).row[row].rounds;
     steps_empty(&f);
     return behaviour;
 }
@@ -310,9 +310,9 @@ static void test_the_reaction_has_a_least_time_and_the_kinds_median(void **state
     steps_serial_context(&f, &step, &context);
     for (int n = 0; n < DRAWS; n++) {
         step.tick = 100 + (uint64_t)n;
-        step.m->reload_tick[row] = 0;
+        step.m->row[row].reload_tick = 0;
         fire_control_acquire(&step, row);
-        time_s[n] = (double)(step.m->reload_tick[row] - step.tick) / HZ;
+        time_s[n] = (double)(step.m->row[row].reload_tick - step.tick) / HZ;
     }
     qsort(time_s, DRAWS, sizeof time_s[0], ascending);
     assert_true(time_s[0] >= FIRE_CONTROL_LEAST_S);
@@ -328,9 +328,9 @@ static void test_a_gun_that_loads_for_longer_is_not_loaded_sooner(void **state)
     struct serial_context context;
     (void)state;
     steps_serial_context(&f, &step, &context);
-    step.m->reload_tick[row] = 1000000;
+    step.m->row[row].reload_tick = 1000000;
     fire_control_acquire(&step, row);
-    assert_int_equal(step.m->reload_tick[row], 1000000);
+    assert_int_equal(step.m->row[row].reload_tick, 1000000);
 }
 
 /* Many pairs far apart: a red tank is hit at by a blue one at frame 0. Returns when it replied. */
@@ -347,7 +347,7 @@ static void test_crews_reply_after_a_human_time(void **state)
         uint32_t blue = steps_put(&f, "tank", (struct vec3){x + 900.0, 100.0, z + 300.0},
                                   FORCE_BLUE, BEHAVIOUR_HOLD);
         struct entities e = steps_rows(&f);
-        e.threat_slot[red] = blue, e.threat_id[red] = e.id[blue];
+        e.row[red].threat_slot = blue, e.row[red].threat_id = e.row[blue].id;
     }
     for (int frame = 0; frame < 30 * 60; frame++) {
         fixture_run(&f, 1);

@@ -34,7 +34,7 @@ static double error_of(uint32_t row)
 {
     struct entities e = steps_rows(&f);
     struct vec3 at = steps_position(&f, row);
-    double dx = e.goal_x[row] - at.x, dz = e.goal_z[row] - at.z;
+    double dx = e.row[row].goal_x - at.x, dz = e.row[row].goal_z - at.z;
     return sqrt(dx * dx + dz * dz);
 }
 
@@ -55,7 +55,7 @@ static void test_everybody_keeps_his_place_on_a_winding_route(void **state)
         for (int second = 0; second < 180; second++) {
             fixture_run(&f, HZ);
             for (uint32_t row = 1; row < COUNT && second > 20; row++) {
-                assert_int_equal(steps_rows(&f).behaviour[row], BEHAVIOUR_FOLLOW);
+                assert_int_equal(steps_rows(&f).row[row].behaviour, BEHAVIOUR_FOLLOW);
                 most = maths_max(most, error_of(row));
                 sum += error_of(row);
                 samples++;
@@ -82,8 +82,8 @@ static void test_a_gap_is_closed_and_a_lost_leader_replaced(void **state)
     steps_command(&f, (struct command){.type = COMMAND_REMOVE, .entity = 1});
     fixture_run(&f, 2);
     struct entities e = steps_rows(&f);
-    assert_int_equal(e.behaviour[1], BEHAVIOUR_ROUTE);
-    assert_int_equal(e.behaviour[2], BEHAVIOUR_FOLLOW);
+    assert_int_equal(e.row[1].behaviour, BEHAVIOUR_ROUTE);
+    assert_int_equal(e.row[2].behaviour, BEHAVIOUR_FOLLOW);
     uint32_t changes = fixture_event_count(&f, EVENT_AGENT);
     assert_int_equal(fixture_event(&f, EVENT_AGENT, changes - 1)->agent.because,
                      REASON_LEADER_LOST);
@@ -124,7 +124,7 @@ static void test_two_columns_meet_on_one_road_and_pass(void **state)
     assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 0);
     struct entities e = steps_rows(&f);
     for (uint32_t row = 0; row < 5; row++)
-        assert_true(e.x[row] > 26000.0 && e.x[row + 5] < 26000.0);
+        assert_true(e.row[row].x > 26000.0 && e.row[row + 5].x < 26000.0);
 }
 
 /* Members that have fallen behind drive along their leader's route: between it and them may be
@@ -138,25 +138,26 @@ static void test_who_has_fallen_behind_drives_along_the_route(void **state)
               " [25800.0, 25400.0], [25800.0, 26400.0], [24000.0, 26400.0] );");
     fixture_run(&f, 20 * HZ);
     struct entities e = steps_rows(&f);
-    e.x[0] = 25400.0; /* its leader has driven on */
-    e.z[0] = 25300.0;
-    e.leg[0] = 3;
-    e.goal_x[0] = 25400.0;
-    e.goal_z[0] = 25400.0;
+    e.row[0].x = 25400.0; /* its leader has driven on */
+    e.row[0].z = 25300.0;
+    e.row[0].leg = 3;
+    e.row[0].goal_x = 25400.0;
+    e.row[0].goal_z = 25400.0;
     for (uint32_t row = 1; row < COUNT; row++) {
-        e.x[row] = 25150.0 - 30.0 * row;
-        e.z[row] = 25000.0;
+        e.row[row].x = 25150.0 - 30.0 * row;
+        e.row[row].z = 25000.0;
     }
     for (int frame = 0; frame < 40 * HZ; frame++) {
         fixture_run(&f, 1);
         e = steps_rows(&f);
         for (uint32_t row = 1; row < COUNT; row++) {
-            double dx = maths_max(0.0, 25400.0 - e.x[row]), dz = maths_max(0.0, e.z[row] - 25000.0);
+            double dx = maths_max(0.0, 25400.0 - e.row[row].x),
+                   dz = maths_max(0.0, e.row[row].z - 25000.0);
             aside = maths_max(aside, maths_min(dx, dz));
         }
     }
     print_message("at most %.0f m off the route\n", aside);
-    assert_true(aside < 25.0 && e.x[1] > 25380.0);
+    assert_true(aside < 25.0 && e.row[1].x > 25380.0);
     assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 0);
 }
 

@@ -45,22 +45,22 @@ static struct stay watch(uint32_t step)
     struct stay stay = {0};
     bool stood[COUNT] = {false}, back[COUNT] = {false};
     for (uint32_t n = 0; n < COUNT; n++)
-        steps_rows(&f).rounds[n * step] = 0;
+        steps_rows(&f).row[n * step].rounds = 0;
     for (int frame = 0; frame < 260 * HZ; frame++) {
         fixture_run(&f, 1);
         struct entities e = steps_rows(&f);
         for (uint32_t n = 0; n < COUNT; n++) {
             uint32_t i = n * step;
-            assert_int_equal(e.state[i], ENTITY_ACTIVE);
-            assert_int_equal(e.damage[i], DAMAGE_NONE);
-            if (e.flags[i] & ENTITY_FLAG_LANDED && steps_speed(&f, i) == 0.0) {
-                double dx = e.x[i] - 25000.0, dz = e.z[i] - 25000.0;
+            assert_int_equal(e.row[i].state, ENTITY_ACTIVE);
+            assert_int_equal(e.row[i].damage, DAMAGE_NONE);
+            if (e.row[i].flags & ENTITY_FLAG_LANDED && steps_speed(&f, i) == 0.0) {
+                double dx = e.row[i].x - 25000.0, dz = e.row[i].z - 25000.0;
                 stood[n] = true;
                 stay.away_m = maths_max(stay.away_m, sqrt(dx * dx + dz * dz));
             }
-            back[n] = e.behaviour[i] == BEHAVIOUR_PATROL && e.rounds[i] > 0 &&
-                      !(e.flags[i] & ENTITY_FLAG_LANDED) &&
-                      e.y[i] > steps_ground_at(&f, e.x[i], e.z[i]) + 20.0;
+            back[n] = e.row[i].behaviour == BEHAVIOUR_PATROL && e.row[i].rounds > 0 &&
+                      !(e.row[i].flags & ENTITY_FLAG_LANDED) &&
+                      e.row[i].y > steps_ground_at(&f, e.row[i].x, e.row[i].z) + 20.0;
         }
     }
     for (uint32_t n = 0; n < COUNT; n++) {

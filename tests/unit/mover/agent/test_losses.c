@@ -38,7 +38,7 @@ static bool lost(uint32_t row)
 static void destroy(uint32_t first, uint32_t count)
 {
     for (uint32_t row = first; row < first + count; row++)
-        steps_rows(&f).state[row] = ENTITY_WRECK;
+        steps_rows(&f).row[row].state = ENTITY_WRECK;
 }
 
 static void test_half_of_an_areas_group_is_three_of_six(void **state)
@@ -64,7 +64,7 @@ static void test_a_formation_counts_its_leader(void **state)
 static void test_a_member_whose_row_holds_another_entity_is_lost(void **state)
 {
     (void)state;
-    steps_rows(&f).id[12] = steps_rows(&f).id[13] = 1000;
+    steps_rows(&f).row[12].id = steps_rows(&f).row[13].id = 1000;
     assert_true(lost(14) && lost(15));
 }
 
@@ -80,15 +80,15 @@ static void test_a_group_with_half_losses_withdraws_when_fired_upon(void **state
     (void)state;
     destroy(0, 3);
     struct entities e = steps_rows(&f);
-    e.flags[4] |= ENTITY_FLAG_STAND;
+    e.row[4].flags |= ENTITY_FLAG_STAND;
     for (uint32_t row = 3; row < 5; row++) {
-        e.threat_slot[row] = 16;
-        e.threat_id[row] = e.id[16];
+        e.row[row].threat_slot = 16;
+        e.row[row].threat_id = e.row[16].id;
     }
     fixture_run(&f, 1);
-    assert_int_equal(steps_rows(&f).behaviour[3], BEHAVIOUR_WITHDRAW);
-    assert_int_not_equal(steps_rows(&f).behaviour[4], BEHAVIOUR_WITHDRAW);
-    assert_int_equal(steps_rows(&f).behaviour[5], BEHAVIOUR_PATROL);
+    assert_int_equal(steps_rows(&f).row[3].behaviour, BEHAVIOUR_WITHDRAW);
+    assert_int_not_equal(steps_rows(&f).row[4].behaviour, BEHAVIOUR_WITHDRAW);
+    assert_int_equal(steps_rows(&f).row[5].behaviour, BEHAVIOUR_PATROL);
 }
 
 int main(void)

@@ -53,9 +53,10 @@ static void scatter(uint64_t *random, double side_m)
 static bool is_neighbour(const struct entities *e, uint32_t i, uint32_t j)
 {
     const struct kind *kinds = f.view.world.kinds;
-    double dx = e->x[j] - e->x[i], dz = e->z[j] - e->z[i], far = avoidance.around_m[e->kind[i]];
-    double apart = 0.5 * (kinds[e->kind[i]].height_m + kinds[e->kind[j]].height_m) + 1.0;
-    return i != j && dx * dx + dz * dz <= far * far && fabs(e->y[i] - e->y[j]) <= apart;
+    double dx = e->row[j].x - e->row[i].x, dz = e->row[j].z - e->row[i].z,
+           far = avoidance.around_m[e->row[i].kind];
+    double apart = 0.5 * (kinds[e->row[i].kind].height_m + kinds[e->row[j].kind].height_m) + 1.0;
+    return i != j && dx * dx + dz * dz <= far * far && fabs(e->row[i].y - e->row[j].y) <= apart;
 }
 
 static bool holds(const struct neighbour_list *list, uint32_t row)
@@ -78,7 +79,7 @@ static uint32_t gather(uint32_t think, struct thread_pool *workers)
     neighbour_lists_gather(&lists, &neighbours, &f.view.world, &avoidance, 0.0, workers);
     for (uint32_t i = 0; i < VEHICLES; i++) {
         const struct neighbour_list *list = &lists.list[i];
-        if (e.id[i] % think != 0 || list->count == NEIGHBOUR_LISTS_NONE)
+        if (e.row[i].id % think != 0 || list->count == NEIGHBOUR_LISTS_NONE)
             continue;
         made++;
         assert_false(holds(list, i));

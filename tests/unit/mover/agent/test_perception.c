@@ -28,8 +28,8 @@ static uint32_t put(const char *kind, double x, double z, enum force force,
     const struct vec3 at = {x, steps_ground_at(&f, x, z), z};
     uint32_t row = steps_put(&f, kind, at, force, behaviour);
     struct entities e = steps_rows(&f);
-    e.flags[row] = flags;
-    e.reload_tick[row] = UINT32_MAX;
+    e.row[row].flags = flags;
+    e.row[row].reload_tick = UINT32_MAX;
     return row;
 }
 
@@ -40,7 +40,7 @@ static void seconds(double s)
 
 static enum behaviour behaviour_of(uint32_t row)
 {
-    return (enum behaviour)steps_rows(&f).behaviour[row];
+    return (enum behaviour)steps_rows(&f).row[row].behaviour;
 }
 
 /* The nth change of behaviour of a row is this one. */
@@ -96,8 +96,8 @@ static void test_row_9_an_agent_shot_at_from_behind_a_hill_does_not_shoot_at_it(
     steps_kind(&f, "tank")->courage = 1.0;
     uint32_t row = put("tank", MIDDLE - 500.0, MIDDLE, FORCE_BLUE, BEHAVIOUR_IDLE, 0);
     uint32_t enemy = put("tank", MIDDLE + 500.0, MIDDLE, FORCE_RED, BEHAVIOUR_HOLD, 0);
-    steps_rows(&f).heading[row] = HALF_PI;
-    steps_rows(&f).reload_tick[row] = 0;
+    steps_rows(&f).row[row].heading = HALF_PI;
+    steps_rows(&f).row[row].reload_tick = 0;
     steps_threaten(&f, row, enemy);
     seconds(5.0);
     assert_int_equal(behaviour_of(row), BEHAVIOUR_ATTACK);
@@ -115,7 +115,7 @@ static bool sees_at(double bearing_deg, double turret_deg)
         put("jeep", MIDDLE, MIDDLE, FORCE_BLUE, BEHAVIOUR_IDLE, ENTITY_FLAG_FIRE_AT_WILL);
     put("jeep", MIDDLE + 600.0 * sine, MIDDLE - 600.0 * cosine, FORCE_RED, BEHAVIOUR_HOLD, 0);
     for (int frame = 0; frame < (int)(60 * HZ) && behaviour_of(row) != BEHAVIOUR_ATTACK; frame++) {
-        steps_rows(&f).turret[row] = (float)(turret_deg * RAD_PER_DEG);
+        steps_rows(&f).row[row].turret = (float)(turret_deg * RAD_PER_DEG);
         fixture_run(&f, 1);
     }
     return behaviour_of(row) == BEHAVIOUR_ATTACK;
@@ -147,7 +147,7 @@ static void test_row_9_one_behind_a_hill_does_not_hide_the_others(void **state)
     for (int second = 0; second < 180 && behaviour_of(row) != BEHAVIOUR_ATTACK; second++)
         seconds(1.0);
     assert_int_equal(behaviour_of(row), BEHAVIOUR_ATTACK);
-    assert_int_equal(steps_rows(&f).target_slot[row], seen);
+    assert_int_equal(steps_rows(&f).row[row].target_slot, seen);
 }
 
 /* --- orders and odds ---------------------------------------------------------------------------*/
@@ -197,9 +197,10 @@ static void test_row_9_a_fleeing_agent_goes_where_it_is_not_seen(void **state)
     fixture_run(&f, 1);
     assert_int_equal(behaviour_of(row), BEHAVIOUR_FLEE);
     struct entities e = steps_rows(&f);
-    struct vec3 eye = {e.x[enemy], e.y[enemy] + 2.0, e.z[enemy]};
-    struct vec3 to = {e.goal_x[row], steps_ground_at(&f, e.goal_x[row], e.goal_z[row]) + 1.0,
-                      e.goal_z[row]};
+    struct vec3 eye = {e.row[enemy].x, e.row[enemy].y + 2.0, e.row[enemy].z};
+    struct vec3 to = {e.row[row].goal_x,
+                      steps_ground_at(&f, e.row[row].goal_x, e.row[row].goal_z) + 1.0,
+                      e.row[row].goal_z};
     assert_false(line_of_sight_clear(&f.stepper.mover.line_of_sight, eye, to));
 }
 
@@ -216,9 +217,9 @@ static void home_and_back(uint32_t row, enum agent_reason because)
     told(row, 1, BEHAVIOUR_RESUPPLY, REASON_ARRIVED);
     told(row, 2, BEHAVIOUR_IDLE, REASON_SUPPLIED);
     struct entities e = steps_rows(&f);
-    assert_true(hypot(e.x[row] - base->x, e.z[row] - base->z) < 160.0);
-    assert_int_equal(e.rounds[row], kind->rounds);
-    assert_true(e.fuel_l[row] > 0.99 * kind->fuel_l);
+    assert_true(hypot(e.row[row].x - base->x, e.row[row].z - base->z) < 160.0);
+    assert_int_equal(e.row[row].rounds, kind->rounds);
+    assert_true(e.row[row].fuel_l > 0.99 * kind->fuel_l);
     assert_int_equal(fixture_event_count(&f, EVENT_AGENT), 3);
 }
 
@@ -227,7 +228,7 @@ static void test_row_9_an_agent_out_of_rounds_goes_to_its_base_and_returns(void 
     (void)state;
     steps_params(&f)->base[FORCE_BLUE] = (struct force_base){MIDDLE, 24000.0};
     uint32_t row = put("tank", MIDDLE, 24800.0, FORCE_BLUE, BEHAVIOUR_IDLE, 0);
-    steps_rows(&f).rounds[row] = 0;
+    steps_rows(&f).row[row].rounds = 0;
     home_and_back(row, REASON_OUT_OF_ROUNDS);
 }
 
@@ -236,7 +237,7 @@ static void test_row_9_an_agent_low_on_fuel_goes_to_its_base_and_returns(void **
     (void)state;
     steps_params(&f)->base[FORCE_BLUE] = (struct force_base){MIDDLE, 24000.0};
     uint32_t row = put("tank", MIDDLE, 24800.0, FORCE_BLUE, BEHAVIOUR_IDLE, 0);
-    steps_rows(&f).fuel_l[row] = 0.031 * steps_kind(&f, "tank")->fuel_l;
+    steps_rows(&f).row[row].fuel_l = 0.031 * steps_kind(&f, "tank")->fuel_l;
     home_and_back(row, REASON_LOW_FUEL);
 }
 
@@ -245,13 +246,13 @@ static void test_supplies_come_evenly(void **state)
     (void)state;
     uint32_t row = put("tank", MIDDLE, MIDDLE, FORCE_BLUE, BEHAVIOUR_IDLE, 0);
     steps_params(&f)->base[FORCE_BLUE] = (struct force_base){MIDDLE, MIDDLE};
-    steps_rows(&f).rounds[row] = 0;
+    steps_rows(&f).row[row].rounds = 0;
     seconds(1.5); /* it is there at once */
-    uint32_t before = steps_rows(&f).rounds[row];
+    uint32_t before = steps_rows(&f).row[row].rounds;
     for (int n = 0; n < 4; n++) {
         seconds(4.0);
-        assert_in_range(steps_rows(&f).rounds[row] - before, 10, 12); /* a fifth of 55 */
-        before = steps_rows(&f).rounds[row];
+        assert_in_range(steps_rows(&f).row[row].rounds - before, 10, 12); /* a fifth of 55 */
+        before = steps_rows(&f).row[row].rounds;
     }
     assert_int_equal(behaviour_of(row), BEHAVIOUR_RESUPPLY);
 }

@@ -35,9 +35,9 @@ static double longest_push(uint32_t rows, int seconds)
         fixture_run(&f, 1);
         struct entities e = steps_rows(&f);
         for (uint32_t i = 0; i < rows; i++) {
-            bool pushes = fabs((double)e.throttle[i]) > 0.15 && steps_speed(&f, i) < 0.3;
-            e.bumped[i] = 0;
-            stuck[i] = pushes && e.state[i] == ENTITY_ACTIVE ? stuck[i] + 1 : 0;
+            bool pushes = fabs((double)e.row[i].throttle) > 0.15 && steps_speed(&f, i) < 0.3;
+            e.row[i].bumped = 0;
+            stuck[i] = pushes && e.row[i].state == ENTITY_ACTIVE ? stuck[i] + 1 : 0;
             longest = stuck[i] > longest ? stuck[i] : longest;
         }
     }
@@ -55,7 +55,7 @@ static void test_two_trucks_nose_to_nose_give_up_and_pass(void **state)
     struct entities e = steps_rows(&f);
     if (push_s > PUSH_S)
         fail_msg("pushed for %g s", push_s);
-    assert_true(e.x[0] > 25100.0 && e.x[1] < 24900.0);
+    assert_true(e.row[0].x > 25100.0 && e.row[1].x < 24900.0);
 }
 
 static void test_a_truck_gives_up_against_a_house(void **state)
@@ -66,7 +66,7 @@ static void test_a_truck_gives_up_against_a_house(void **state)
     double push_s = longest_push(1, 120);
     if (push_s > PUSH_S)
         fail_msg("pushed for %g s", push_s);
-    assert_true(steps_rows(&f).x[0] > 25100.0);
+    assert_true(steps_rows(&f).row[0].x > 25100.0);
 }
 
 static void test_a_column_behind_a_blocked_truck_does_not_push(void **state)
@@ -80,7 +80,7 @@ static void test_a_column_behind_a_blocked_truck_does_not_push(void **state)
     struct entities e = steps_rows(&f);
     if (push_s > PUSH_S)
         fail_msg("pushed for %g s", push_s);
-    assert_true(e.x[0] > 25100.0 && e.x[1] > 25100.0 && e.x[2] > 25100.0);
+    assert_true(e.row[0].x > 25100.0 && e.row[1].x > 25100.0 && e.row[2].x > 25100.0);
 }
 
 /* Something that no look shows, such as a stump in the grass, holds the truck while it drives east.
@@ -93,9 +93,9 @@ static void test_a_truck_gives_up_against_what_it_does_not_see(void **state)
     for (int frame = 0; frame < 120 * HZ; frame++) {
         fixture_run(&f, 1);
         struct entities e = steps_rows(&f);
-        bool held = e.throttle[0] > 0.15f && e.vx[0] > 0.0 && e.x[0] > 25000.0;
+        bool held = e.row[0].throttle > 0.15f && e.row[0].vx > 0.0 && e.row[0].x > 25000.0;
         if (held)
-            e.x[0] -= e.vx[0] / HZ, e.vx[0] = e.vz[0] = 0.0;
+            e.row[0].x -= e.row[0].vx / HZ, e.row[0].vx = e.row[0].vz = 0.0;
         stuck = held ? stuck + 1 : 0;
         longest = stuck > longest ? stuck : longest;
     }
@@ -119,15 +119,15 @@ static double crawls_until(bool touches)
         struct entities e = steps_rows(&f);
         struct state now = fixture_state(&f);
         struct state_head *head = (struct state_head *)(uintptr_t)now.head;
-        if (e.behaviour[0] == BEHAVIOUR_BACK_OFF)
+        if (e.row[0].behaviour == BEHAVIOUR_BACK_OFF)
             return (double)frame / HZ;
-        e.vx[0] = 0.0;
-        e.vz[0] = -1.5;
-        e.flags[0] |= ENTITY_FLAG_CHASSIS;
-        e.jolt_tick[0] = (uint32_t)head->tick;
+        e.row[0].vx = 0.0;
+        e.row[0].vz = -1.5;
+        e.row[0].flags |= ENTITY_FLAG_CHASSIS;
+        e.row[0].jolt_tick = (uint32_t)head->tick;
         head->contact_count = touches;
-        now.contacts[0] = (struct persistent_contact){.a_id = e.id[0],
-                                                      .b_id = e.id[1],
+        now.contacts[0] = (struct persistent_contact){.a_id = e.row[0].id,
+                                                      .b_id = e.row[1].id,
                                                       .a_row = 0,
                                                       .b_row = 1,
                                                       .pressed_tick = (uint32_t)head->tick};
@@ -169,13 +169,13 @@ static double out_of_crater(double south_m, double heading_deg)
     for (int frame = 0; frame < 300 * HZ && out_s < 0.0; frame++) {
         fixture_run(&f, 1);
         const struct entities e = steps_rows(&f);
-        const double dx = e.x[0] - 25000.0, dz = e.z[0] - 25000.0 - south_m;
+        const double dx = e.row[0].x - 25000.0, dz = e.row[0].z - 25000.0 - south_m;
         if (dx * dx + dz * dz > 5.0 * 5.0)
             out_s = (double)frame / HZ;
-        else if (e.behaviour[0] == BEHAVIOUR_IDLE)
+        else if (e.row[0].behaviour == BEHAVIOUR_IDLE)
             out_s = INFINITY;
     }
-    assert_int_equal(steps_rows(&f).state[0], ENTITY_ACTIVE);
+    assert_int_equal(steps_rows(&f).row[0].state, ENTITY_ACTIVE);
     fixture_close(&f);
     return out_s;
 }
@@ -215,7 +215,7 @@ static double out_of_trench(const char *kind, const char *how, double *push_s)
                    kind, how);
     fixture_open(&f, text);
     *push_s = longest_push(1, 30);
-    double north = 24996.4 - steps_rows(&f).z[0];
+    double north = 24996.4 - steps_rows(&f).row[0].z;
     fixture_close(&f);
     return north;
 }
@@ -247,7 +247,7 @@ static uint32_t decisions_until_stalled(float throttle, double speed)
                                                            .at = {25000.0, 100.0, 25000.0},
                                                            .velocity = {speed, 0.0, 0.0}});
     steps_serial_context(&f, &step, &context);
-    step.m->throttle[row] = throttle;
+    step.m->row[row].throttle = throttle;
     for (uint32_t n = 1; n <= 100; n++) {
         if (progress_stalled(&step, row))
             return n;
@@ -276,14 +276,14 @@ static void test_it_is_stuck_when_it_waits_for_twenty_seconds(void **state)
     uint32_t row =
         fixture_put(&f, (struct fixture_entity){.kind = "truck", .at = {25000.0, 100.0, 25000.0}});
     steps_serial_context(&f, &step, &context);
-    step.m->ease[row] = 1.0f;
+    step.m->row[row].ease = 1.0f;
     while (decisions < 1000 && !progress_stalled(&step, row)) {
         step.tick += step.think_frames;
         decisions++;
     }
     double seconds = decisions * step.think_frames * step.dt_s;
     assert_true(seconds > 19.0 && seconds < 21.0);
-    step.m->ease[row] = 0.4f; /* it only slows down */
+    step.m->row[row].ease = 0.4f; /* it only slows down */
     for (decisions = 0; decisions < 1000; decisions++, step.tick += step.think_frames)
         assert_false(progress_stalled(&step, row));
 }
@@ -295,14 +295,14 @@ static void test_who_is_stuck_again_rests_and_gives_up(void **state)
     int drives = 0, rests = 0, seconds = 0;
     (void)state;
     fixture_open(&f, WORLD "vehicles = (" TRUCK("25000.0") ");");
-    for (; seconds < 600 && steps_rows(&f).behaviour[0] != BEHAVIOUR_IDLE; seconds++) {
+    for (; seconds < 600 && steps_rows(&f).row[0].behaviour != BEHAVIOUR_IDLE; seconds++) {
         for (int frame = 0; frame < HZ; frame++) {
             fixture_run(&f, 1);
             struct entities e = steps_rows(&f);
-            e.x[0] = e.z[0] = 25000.0;
-            e.vx[0] = e.vz[0] = 0.0;
-            drives += fabs((double)e.throttle[0]) > 0.15;
-            rests += fabs((double)e.throttle[0]) < 0.01;
+            e.row[0].x = e.row[0].z = 25000.0;
+            e.row[0].vx = e.row[0].vz = 0.0;
+            drives += fabs((double)e.row[0].throttle) > 0.15;
+            rests += fabs((double)e.row[0].throttle) < 0.01;
         }
     }
     const struct event *last =
@@ -323,9 +323,10 @@ static void test_the_way_out_is_to_the_back(void **state)
     uint32_t row =
         fixture_put(&f, (struct fixture_entity){.kind = "truck", .at = {25000.0, 100.0, 25000.0}});
     steps_serial_context(&f, &step, &context);
-    step.m->throttle[row] = 1.0f;
+    step.m->row[row].throttle = 1.0f;
     for (step.tick = 1; step.tick < 100; step.tick++) {
-        double off = maths_wrap_half(progress_way_out(&step, row, false) - step.m->heading[row]);
+        double off =
+            maths_wrap_half(progress_way_out(&step, row, false) - step.m->row[row].heading);
         assert_true(fabs(off) > HALF_PI);
     }
 }
@@ -345,15 +346,15 @@ static void test_nobody_pushes_for_long_under_fire(void **state)
                             .kind = "tank", .at = {25600.0, 100.0, 25000.0}, .force = FORCE_RED});
     for (int frame = 0; frame < 180 * HZ; frame++) {
         struct entities e = steps_rows(&f);
-        e.order[row] = BEHAVIOUR_PATROL;
-        e.x[row] = e.z[row] = 25000.0; /* a pit holds it */
-        e.vx[row] = e.vz[row] = 0.0;
+        e.row[row].order = BEHAVIOUR_PATROL;
+        e.row[row].x = e.row[row].z = 25000.0; /* a pit holds it */
+        e.row[row].vx = e.row[row].vz = 0.0;
         if (frame % 7 == 0) {
-            e.threat_slot[row] = tank;
-            e.threat_id[row] = tank + 1;
+            e.row[row].threat_slot = tank;
+            e.row[row].threat_id = tank + 1;
         }
         fixture_run(&f, 1);
-        bool pushes = fabs((double)steps_rows(&f).throttle[row]) >= 0.15;
+        bool pushes = fabs((double)steps_rows(&f).row[row].throttle) >= 0.15;
         pushed = pushes ? pushed + 1 : 0;
         tried += pushes && frame > 60 * HZ;
         longest = pushed > longest ? pushed : longest;

@@ -45,18 +45,18 @@ static void run_s(double seconds)
 static double off(double x, double z)
 {
     const struct entities *e = now();
-    return sqrt((e->x[0] - x) * (e->x[0] - x) + (e->z[0] - z) * (e->z[0] - z));
+    return sqrt((e->row[0].x - x) * (e->row[0].x - x) + (e->row[0].z - z) * (e->row[0].z - z));
 }
 
 static double speed(void)
 {
     const struct entities *e = now();
-    return sqrt(e->vx[0] * e->vx[0] + e->vz[0] * e->vz[0]);
+    return sqrt(e->row[0].vx * e->row[0].vx + e->row[0].vz * e->row[0].vz);
 }
 
 static void check_step(uint32_t step)
 {
-    assert_int_equal(now()->leg[0], step);
+    assert_int_equal(now()->row[0].leg, step);
 }
 
 /* Events of agents with this reason so far. */
@@ -106,7 +106,7 @@ static void test_it_arrives_at_its_time(void **state)
         assert_true(off(x[2], z[2]) < 3.0);
         assert_true(speed() < 0.1);
         assert_int_equal(said(REASON_ARRIVED), 3);
-        assert_int_equal(now()->behaviour[0], BEHAVIOUR_IDLE);
+        assert_int_equal(now()->row[0].behaviour, BEHAVIOUR_IDLE);
         fixture_close(&f);
     }
 }
@@ -162,9 +162,9 @@ static void test_one_step_follows_the_other(void **state)
     assert_true(off(25000.0, 24900.0) < 3.0);
     run_s(30.0);
     assert_true(off(25060.0, 24900.0) < 3.0);
-    assert_true(fabs(now()->heading[0] - HALF_PI) < 0.1);
-    assert_int_equal(now()->behaviour[0], BEHAVIOUR_IDLE);
-    assert_int_equal(now()->order[0], BEHAVIOUR_IDLE);
+    assert_true(fabs(now()->row[0].heading - HALF_PI) < 0.1);
+    assert_int_equal(now()->row[0].behaviour, BEHAVIOUR_IDLE);
+    assert_int_equal(now()->row[0].order, BEHAVIOUR_IDLE);
     assert_int_equal(said(REASON_ARRIVED), 2);
     assert_int_equal(said(REASON_SCRIPT), 0); /* the last arrival says it */
     fixture_close(&f);
@@ -187,9 +187,9 @@ static void test_a_wait_lasts_as_long_as_it_says(void **state)
     check_step(2);
     run_s(2.7);
     check_step(2);
-    assert_int_equal(now()->behaviour[0], BEHAVIOUR_SCRIPT);
+    assert_int_equal(now()->row[0].behaviour, BEHAVIOUR_SCRIPT);
     run_s(0.5);
-    assert_int_equal(now()->behaviour[0], BEHAVIOUR_IDLE);
+    assert_int_equal(now()->row[0].behaviour, BEHAVIOUR_IDLE);
     fixture_close(&f);
 }
 
@@ -209,13 +209,13 @@ static void test_a_step_acts_from_its_time_on_at_any_rate(void **state)
                  worlds[n]);
         fixture_open(&f, text);
         fixture_run(&f, 2 * hz[n] / 5);
-        assert_true(now()->throttle[0] == 0.0f && speed() == 0.0);
+        assert_true(now()->row[0].throttle == 0.0f && speed() == 0.0);
         fixture_run(&f, 1);
-        assert_true(now()->throttle[0] == 1.0f && speed() > 0.0);
+        assert_true(now()->row[0].throttle == 1.0f && speed() > 0.0);
         fixture_run(&f, 3 * hz[n] / 5 - 1);
-        assert_true(now()->throttle[0] == 1.0f);
+        assert_true(now()->row[0].throttle == 1.0f);
         fixture_run(&f, 1);
-        assert_true(now()->throttle[0] == 0.0f);
+        assert_true(now()->row[0].throttle == 0.0f);
         fixture_close(&f);
     }
 }
@@ -233,7 +233,7 @@ static void test_a_time_cuts_off_the_steps_before_it(void **state)
     run_s(4.0 / HZ);
     check_step(2);
     run_s(8.0);
-    assert_true(fabs(now()->heading[0] - HALF_PI) < 0.05);
+    assert_true(fabs(now()->row[0].heading - HALF_PI) < 0.05);
     fixture_close(&f);
 }
 
@@ -269,7 +269,7 @@ static void test_who_aims_with_the_hull_turns_it(void **state)
     assert_int_equal(fixture_event_count(&f, EVENT_FIRE), 2);
     assert_int_equal(fixture_event(&f, EVENT_FIRE, 0)->fire.target.id, 2);
     assert_int_equal(fixture_event(&f, EVENT_FIRE, 1)->fire.target.id, 0);
-    assert_true(fabs(now()->heading[0] - HALF_PI) < 0.1);
+    assert_true(fabs(now()->row[0].heading - HALF_PI) < 0.1);
     fixture_close(&f);
 }
 
@@ -281,8 +281,8 @@ static void test_controls_are_held_for_their_time(void **state)
     assert_true(speed() > 3.0);
     run_s(8.0);
     assert_true(speed() < 0.1);
-    assert_int_equal(now()->behaviour[0], BEHAVIOUR_IDLE);
-    assert_true(now()->throttle[0] == 0.0f);
+    assert_int_equal(now()->row[0].behaviour, BEHAVIOUR_IDLE);
+    assert_true(now()->row[0].throttle == 0.0f);
     fixture_close(&f);
 }
 
@@ -296,15 +296,15 @@ static void test_a_ship_goes_astern_for_its_script(void **state)
     uint32_t ship = fixture_put(
         &f, (struct fixture_entity){.kind = "ship", .at = {23000.0, FIXTURE_GROUND_M, 23000.0}});
     struct entities e = steps_rows(&f);
-    e.behaviour[ship] = e.order[ship] = BEHAVIOUR_SCRIPT;
-    e.order_arg[ship] = e.order_arg[0];
+    e.row[ship].behaviour = e.row[ship].order = BEHAVIOUR_SCRIPT;
+    e.row[ship].order_arg = e.row[0].order_arg;
     run_s(20.0);
-    assert_true(now()->vz[ship] < -5.0);
+    assert_true(now()->row[ship].vz < -5.0);
     run_s(75.0);
     print_message("a ship with its throttle at -1 for 75 s goes astern with %.1f m/s\n",
-                  now()->vz[ship]);
-    assert_true(now()->vz[ship] > 5.0);
-    assert_int_equal(now()->behaviour[ship], BEHAVIOUR_SCRIPT);
+                  now()->row[ship].vz);
+    assert_true(now()->row[ship].vz > 5.0);
+    assert_int_equal(now()->row[ship].behaviour, BEHAVIOUR_SCRIPT);
     fixture_close(&f);
 }
 
@@ -315,9 +315,9 @@ static void test_aircraft_keep_the_height_of_their_steps(void **state)
                 "{ altitude_m = 60.0; }, { go = [25000.0, 24400.0]; }, { go = [25000.0, 24000.0]; "
                 "altitude_m = 90.0; }, { wait_s = 60.0; }");
     run_s(9.0);
-    assert_true(fabs(now()->y[0] - FIXTURE_GROUND_M - 60.0) < 5.0);
+    assert_true(fabs(now()->row[0].y - FIXTURE_GROUND_M - 60.0) < 5.0);
     run_s(30.0);
-    assert_true(fabs(now()->y[0] - FIXTURE_GROUND_M - 90.0) < 5.0);
+    assert_true(fabs(now()->row[0].y - FIXTURE_GROUND_M - 90.0) < 5.0);
     fixture_close(&f);
 }
 
@@ -326,9 +326,9 @@ static void test_a_step_gives_it_back_to_its_agent(void **state)
     (void)state;
     open_script("tank", "", "{ wait_s = 1.0; }, { behaviour = \"patrol\"; }");
     run_s(1.2);
-    assert_int_equal(now()->behaviour[0], BEHAVIOUR_PATROL);
-    assert_int_equal(now()->order[0], BEHAVIOUR_PATROL);
-    assert_int_equal(now()->order_arg[0], 0);
+    assert_int_equal(now()->row[0].behaviour, BEHAVIOUR_PATROL);
+    assert_int_equal(now()->row[0].order, BEHAVIOUR_PATROL);
+    assert_int_equal(now()->row[0].order_arg, 0);
     assert_int_equal(said(REASON_SCRIPT), 1);
     run_s(10.0);
     assert_true(speed() > 1.0);
@@ -344,19 +344,19 @@ static void test_scripts_repeat(void **state)
         "{ at_s = 0.0; face_deg = 90.0; }, { at_s = 20.0; face_deg = 270.0; }, { at_s = 40.0; "
         "stop = true; }");
     run_s(19.0);
-    assert_true(fabs(now()->heading[0] - HALF_PI) < 0.05);
+    assert_true(fabs(now()->row[0].heading - HALF_PI) < 0.05);
     run_s(20.0);
-    assert_true(fabs(now()->heading[0] - 3.0 * HALF_PI) < 0.05);
+    assert_true(fabs(now()->row[0].heading - 3.0 * HALF_PI) < 0.05);
     run_s(20.0);
-    assert_true(fabs(now()->heading[0] - HALF_PI) < 0.05);
+    assert_true(fabs(now()->row[0].heading - HALF_PI) < 0.05);
     run_s(200.0);
-    assert_true(fabs(now()->heading[0] - HALF_PI) < 0.05);
-    assert_int_equal(now()->leg[0] / 3, 6);
+    assert_true(fabs(now()->row[0].heading - HALF_PI) < 0.05);
+    assert_int_equal(now()->row[0].leg / 3, 6);
     fixture_close(&f);
     open_script("tank", "repeat = true;", "{ wait_s = 1.0; }, { face_deg = 0.0; }");
     run_s(10.0);
-    assert_true(now()->leg[0] / 2 >= 8 && now()->leg[0] / 2 <= 10);
-    assert_int_equal(now()->behaviour[0], BEHAVIOUR_SCRIPT);
+    assert_true(now()->row[0].leg / 2 >= 8 && now()->row[0].leg / 2 <= 10);
+    assert_int_equal(now()->row[0].behaviour, BEHAVIOUR_SCRIPT);
     fixture_close(&f);
 }
 
@@ -370,12 +370,12 @@ static void test_it_reacts_only_when_it_shall(void **state)
         struct state state_now = fixture_state(&f);
         for (int shot = 0; shot < 20; shot++) {
             state_now = fixture_state(&f);
-            state_now.entities.threat_slot[0] = 1;
-            state_now.entities.threat_id[0] = 2;
+            state_now.entities.row[0].threat_slot = 1;
+            state_now.entities.row[0].threat_id = 2;
             fixture_run(&f, 2);
         }
         assert_int_equal(said(REASON_FIRED_UPON), reacts);
-        assert_int_equal(now()->order[0], BEHAVIOUR_SCRIPT);
+        assert_int_equal(now()->row[0].order, BEHAVIOUR_SCRIPT);
         fixture_close(&f);
     }
 }
@@ -389,12 +389,12 @@ static void test_it_goes_on_by_the_clock_after_an_interruption(void **state)
                 "24800.0]; }, { at_s = 68.0; arrive = [25100.0, 24600.0]; }, { wait_s = 1000.0; }");
     run_s(10.0);
     struct state state_now = fixture_state(&f);
-    state_now.entities.behaviour[0] = BEHAVIOUR_DRIVEN;
-    state_now.entities.driver[0] = 99;
-    state_now.entities.throttle[0] = 0.0f;
-    state_now.entities.until_tick[0] = 36 * HZ; /* a lease */
+    state_now.entities.row[0].behaviour = BEHAVIOUR_DRIVEN;
+    state_now.entities.row[0].driver = 99;
+    state_now.entities.row[0].throttle = 0.0f;
+    state_now.entities.row[0].until_tick = 36 * HZ; /* a lease */
     run_s(27.0);
-    assert_int_equal(now()->behaviour[0], BEHAVIOUR_SCRIPT);
+    assert_int_equal(now()->row[0].behaviour, BEHAVIOUR_SCRIPT);
     check_step(1);
     run_s(68.0 - 37.0);
     assert_true(off(25100.0, 24600.0) < speed() / HZ + 1.5);
@@ -413,12 +413,12 @@ static void test_several_keep_their_places(void **state)
     double x[5], z[5];
     assert_int_equal(f.view.world.counts.scripts, 5);
     for (int i = 0; i < 5; i++) {
-        x[i] = now()->x[i] - now()->x[0];
-        z[i] = now()->z[i] - now()->z[0];
+        x[i] = now()->row[i].x - now()->row[0].x;
+        z[i] = now()->row[i].z - now()->row[0].z;
     }
     run_s(60.0);
     for (int i = 0; i < 5; i++) {
-        double dx = now()->x[i] - 25000.0 - x[i], dz = now()->z[i] - 24700.0 - z[i];
+        double dx = now()->row[i].x - 25000.0 - x[i], dz = now()->row[i].z - 24700.0 - z[i];
         if (!(sqrt(dx * dx + dz * dz) < 2.0))
             fail_msg("jeep %d is %.2f m off its place", i, sqrt(dx * dx + dz * dz));
     }

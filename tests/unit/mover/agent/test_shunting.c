@@ -36,18 +36,18 @@ struct turned {
 static double forward_of(const struct entities *e, uint32_t row)
 {
     double sine, cosine;
-    maths_sincos(e->heading[row], &sine, &cosine);
-    return e->vx[row] * sine - e->vz[row] * cosine;
+    maths_sincos(e->row[row].heading, &sine, &cosine);
+    return e->row[row].vx * sine - e->row[row].vz * cosine;
 }
 
 /* Notes what row 0 has done from one frame to the next. was: where it headed, and its speed. */
 static void note(struct turned *turned, const struct kind *kind, double was_rad, double was_mps)
 {
     const struct entities e = steps_rows(&f);
-    const double rps = fabs(maths_wrap_half(e.heading[0] - was_rad)) * HZ;
+    const double rps = fabs(maths_wrap_half(e.row[0].heading - was_rad)) * HZ;
     const double speed = maths_max(fabs(was_mps), fabs(forward_of(&e, 0)));
     const double most = speed / maths_max(kind->least_turn_m, 0.1);
-    const double dx = e.x[0] - START, dz = e.z[0] - START;
+    const double dx = e.row[0].x - START, dz = e.row[0].z - START;
     if (rps > 1e-9)
         turned->tightest = maths_max(turned->tightest, rps / maths_max(most, 1e-12));
     turned->most_rps = maths_max(turned->most_rps, rps);
@@ -60,12 +60,12 @@ static void note(struct turned *turned, const struct kind *kind, double was_rad,
  */
 static double run_until(double heading_rad, double most_s, struct turned *turned)
 {
-    const struct kind *kind = &f.view.world.kinds[steps_rows(&f).kind[0]];
+    const struct kind *kind = &f.view.world.kinds[steps_rows(&f).row[0].kind];
     uint32_t frames = 0;
     while (frames < (uint32_t)(most_s * HZ) &&
-           !(fabs(maths_wrap_half(steps_rows(&f).heading[0] - heading_rad)) < 0.02)) {
+           !(fabs(maths_wrap_half(steps_rows(&f).row[0].heading - heading_rad)) < 0.02)) {
         const struct entities e = steps_rows(&f);
-        const double was_rad = e.heading[0], was_mps = forward_of(&e, 0);
+        const double was_rad = e.row[0].heading, was_mps = forward_of(&e, 0);
         fixture_run(&f, 1);
         note(turned, kind, was_rad, was_mps);
         frames++;
@@ -100,7 +100,7 @@ static void test_wheels_face_a_heading_to_and_fro(void **state)
         assert_true(turned.tightest > 0.5 && turned.tightest < TIGHT);
         assert_true(turned.to_and_fro >= 2);
         assert_true(turned.farthest_m < 12.0);
-        assert_true(fabs(maths_wrap_half(steps_rows(&f).heading[0] - PI)) < 0.02);
+        assert_true(fabs(maths_wrap_half(steps_rows(&f).row[0].heading - PI)) < 0.02);
         assert_true(steps_speed(&f, 0) == 0.0);
         fixture_close(&f);
     }
@@ -132,9 +132,9 @@ static void test_wheels_get_to_a_point_beside_them(void **state)
             open_world(wheels[k], steps, "");
             (void)run_until(NAN, 40.0, &turned);
             const struct entities e = steps_rows(&f);
-            const double dx = e.x[0] - START - east, dz = e.z[0] - START - 1.0;
+            const double dx = e.row[0].x - START - east, dz = e.row[0].z - START - 1.0;
             assert_true(turned.tightest < TIGHT);
-            if (e.behaviour[0] != BEHAVIOUR_IDLE)
+            if (e.row[0].behaviour != BEHAVIOUR_IDLE)
                 fail_msg("%s is %.1f m off a point %.0f m beside it", wheels[k],
                          sqrt(dx * dx + dz * dz), east);
             fixture_close(&f);
@@ -158,8 +158,8 @@ static void test_wheels_turn_before_a_wall(void **state)
                       wheels[k], time_s, turned.to_and_fro);
         assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 0);
         assert_true(turned.tightest < TIGHT && time_s < 40.0);
-        assert_int_equal(e.behaviour[0], BEHAVIOUR_IDLE);
-        assert_true(e.z[0] > 25195.0);
+        assert_int_equal(e.row[0].behaviour, BEHAVIOUR_IDLE);
+        assert_true(e.row[0].z > 25195.0);
         fixture_close(&f);
     }
 }
@@ -200,9 +200,11 @@ static void test_no_patrol_turns_tighter(void **state)
             for (uint32_t i = 0; i < 16; i++) {
                 const double fast = maths_max(speed[i], vec3_length(steps_velocity(&f, i)));
                 const double turn = fabs(maths_wrap_half(heading_of(i, hz) - heading[i])) * hz;
-                const double most = fast / f.view.world.kinds[steps_rows(&f).kind[i]].least_turn_m;
+                const double most =
+                    fast / f.view.world.kinds[steps_rows(&f).row[i].kind].least_turn_m;
                 turns += turn / hz;
-                if (!(steps_rows(&f).flags[i] & ENTITY_FLAG_CHASSIS) && turn > TIGHT * most + 1e-9)
+                if (!(steps_rows(&f).row[i].flags & ENTITY_FLAG_CHASSIS) &&
+                    turn > TIGHT * most + 1e-9)
                     fail_msg("round %d: row %u turns by %.7f of %.7f rad/s at frame %d", round, i,
                              turn, most, frame);
             }

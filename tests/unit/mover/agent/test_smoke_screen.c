@@ -55,7 +55,7 @@ static void test_a_tank_that_flees_is_hidden_for_its_time(void **state)
     uint32_t row = put_target("tank", enemy);
     int first = -1, last = -1;
     (void)state;
-    assert_int_equal(steps_rows(&f).behaviour[row], BEHAVIOUR_FLEE);
+    assert_int_equal(steps_rows(&f).row[row].behaviour, BEHAVIOUR_FLEE);
     for (int frame = 0; frame < 20 * HZ; frame++) {
         fixture_run(&f, 1);
         assert_int_equal(between(enemy, row), between(row, enemy));
@@ -82,16 +82,16 @@ static void test_a_gunner_does_not_fire_into_smoke(void **state)
         fixture_run(&f, 2 * HZ);
         struct entities e = steps_rows(&f);
         uint32_t now = (uint32_t)fixture_state(&f).head->tick;
-        e.behaviour[gunner] = BEHAVIOUR_ATTACK;
-        e.heading[gunner] = PI;
-        e.target_slot[gunner] = row;
-        e.target_id[gunner] = e.id[row];
-        e.goal_x[gunner] = e.x[row];
-        e.goal_z[gunner] = e.z[row];
-        e.until_tick[gunner] = UINT32_MAX;
-        e.seen_tick[gunner] = now - UINT32_MAX / 2;
+        e.row[gunner].behaviour = BEHAVIOUR_ATTACK;
+        e.row[gunner].heading = PI;
+        e.row[gunner].target_slot = row;
+        e.row[gunner].target_id = e.row[row].id;
+        e.row[gunner].goal_x = e.row[row].x;
+        e.row[gunner].goal_z = e.row[row].z;
+        e.row[gunner].until_tick = UINT32_MAX;
+        e.row[gunner].seen_tick = now - UINT32_MAX / 2;
         if (smoke)
-            e.owner_slot[row] = now - (uint32_t)(SMOKE_GROWS_S * HZ);
+            e.row[row].owner_slot = now - (uint32_t)(SMOKE_GROWS_S * HZ);
         fixture_run(&f, 12 * HZ);
         assert_int_equal(fixture_event_count(&f, EVENT_FIRE) > before, !smoke);
     }
@@ -100,16 +100,16 @@ static void test_a_gunner_does_not_fire_into_smoke(void **state)
 static void test_launchers_are_loaded_for_three_minutes(void **state)
 {
     uint32_t enemy = put("tank", 0.0, 25000.0, FORCE_RED, BEHAVIOUR_HOLD);
-    uint32_t row = put_target("tank", enemy), first = steps_rows(&f).owner_slot[row];
+    uint32_t row = put_target("tank", enemy), first = steps_rows(&f).row[row].owner_slot;
     (void)state;
     assert_true(first != 0);
     for (int again = 0; again < 2; again++) {
         fixture_run(&f, (uint32_t)(again ? (SMOKE_AGAIN_S - 20.0) * HZ : 20 * HZ));
         struct entities e = steps_rows(&f);
-        e.behaviour[row] = e.order[row] = BEHAVIOUR_IDLE;
+        e.row[row].behaviour = e.row[row].order = BEHAVIOUR_IDLE;
         steps_threaten(&f, row, enemy);
         fixture_run(&f, 2);
-        assert_int_equal(steps_rows(&f).owner_slot[row] != first, again);
+        assert_int_equal(steps_rows(&f).row[row].owner_slot != first, again);
     }
 }
 
@@ -117,8 +117,8 @@ static void test_jeeps_and_trucks_have_none(void **state)
 {
     uint32_t enemy = put("tank", 0.0, 25000.0, FORCE_RED, BEHAVIOUR_HOLD);
     (void)state;
-    assert_int_equal(steps_rows(&f).owner_slot[put_target("jeep", enemy)], 0);
-    assert_int_equal(steps_rows(&f).owner_slot[put_target("truck", enemy)], 0);
+    assert_int_equal(steps_rows(&f).row[put_target("jeep", enemy)].owner_slot, 0);
+    assert_int_equal(steps_rows(&f).row[put_target("truck", enemy)].owner_slot, 0);
 }
 
 int main(void)

@@ -27,8 +27,8 @@ static uint32_t put(const char *kind, double x, double z, enum force force,
 {
     uint32_t row = steps_put(&f, kind, (struct vec3){x, FIXTURE_GROUND_M, z}, force, behaviour);
     struct entities e = steps_rows(&f);
-    e.flags[row] = ENTITY_FLAG_FIRE_AT_WILL;
-    e.reload_tick[row] = UINT32_MAX;
+    e.row[row].flags = ENTITY_FLAG_FIRE_AT_WILL;
+    e.row[row].reload_tick = UINT32_MAX;
     return row;
 }
 
@@ -45,7 +45,7 @@ static double mean_s(double distance)
     for (int frame = 0; frame < 120 * HZ; frame++) {
         fixture_run(&f, 1);
         for (uint32_t n = 0; n < CREWS; n++)
-            sum += steps_rows(&f).behaviour[2 * n] == BEHAVIOUR_IDLE ? 1.0 / HZ : 0.0;
+            sum += steps_rows(&f).row[2 * n].behaviour == BEHAVIOUR_IDLE ? 1.0 / HZ : 0.0;
     }
     return sum / CREWS;
 }
@@ -69,8 +69,8 @@ static void test_crews_side_by_side_take_different_targets(void **state)
         put("truck", 25000.0 + 20.0 * n, 24400.0, FORCE_RED, BEHAVIOUR_HOLD);
     fixture_run(&f, 120 * HZ);
     for (uint32_t n = 0; n < 8; n++) {
-        assert_int_equal(steps_rows(&f).behaviour[n], BEHAVIOUR_ATTACK);
-        taken[steps_rows(&f).target_slot[n] - 8]++;
+        assert_int_equal(steps_rows(&f).row[n].behaviour, BEHAVIOUR_ATTACK);
+        taken[steps_rows(&f).row[n].target_slot - 8]++;
     }
     for (uint32_t n = 0; n < 8; n++) {
         targets += taken[n] > 0;
@@ -89,7 +89,7 @@ static void test_a_crew_that_stands_looks_past_what_it_cannot_harm(void **state)
     for (uint32_t n = 0; n < CREWS; n++) {
         double x = 4000.0 + 6000.0 * (n % 7), z = 4000.0 + 6000.0 * (double)(n / 7);
         uint32_t row = put("jeep", x, z, FORCE_BLUE, BEHAVIOUR_IDLE);
-        steps_rows(&f).flags[row] |= ENTITY_FLAG_STAND;
+        steps_rows(&f).row[row].flags |= ENTITY_FLAG_STAND;
         for (int tank = 0; tank < 3; tank++)
             put("tank", x + 20.0, z + 12.0 * tank, FORCE_RED, BEHAVIOUR_HOLD);
         put("jeep", x + 300.0, z - 60.0, FORCE_RED, BEHAVIOUR_HOLD);
@@ -97,8 +97,9 @@ static void test_a_crew_that_stands_looks_past_what_it_cannot_harm(void **state)
     fixture_run(&f, 20 * HZ);
     struct entities e = steps_rows(&f);
     for (uint32_t n = 0; n < CREWS; n++) {
-        fight += e.behaviour[5 * n] == BEHAVIOUR_ATTACK;
-        assert_true(e.behaviour[5 * n] == BEHAVIOUR_IDLE || e.target_slot[5 * n] == 5 * n + 4);
+        fight += e.row[5 * n].behaviour == BEHAVIOUR_ATTACK;
+        assert_true(e.row[5 * n].behaviour == BEHAVIOUR_IDLE ||
+                    e.row[5 * n].target_slot == 5 * n + 4);
     }
     if (fight < CREWS * 3 / 4)
         fail_msg("%u of %u jeeps fight", fight, CREWS);
@@ -118,15 +119,16 @@ static void test_helicopters_take_air_defence_first(void **state)
     }
     struct entities e = steps_rows(&f);
     for (uint32_t n = 0; n < CREWS; n++) {
-        e.y[5 * n] += 45.0;
-        e.behaviour[5 * n] = BEHAVIOUR_ATTACK; /* a crew at ease finds what is near first */
+        e.row[5 * n].y += 45.0;
+        e.row[5 * n].behaviour = BEHAVIOUR_ATTACK; /* a crew at ease finds what is near first */
         steps_target(&f, 5 * n, 5 * n + 2);
-        e.state[5 * n + 2] = ENTITY_WRECK;
+        e.row[5 * n + 2].state = ENTITY_WRECK;
     }
     fixture_run(&f, 2 * HZ);
     e = steps_rows(&f);
     for (uint32_t n = 0; n < CREWS; n++)
-        first += e.behaviour[5 * n] == BEHAVIOUR_ATTACK && e.target_slot[5 * n] == 5 * n + 1;
+        first +=
+            e.row[5 * n].behaviour == BEHAVIOUR_ATTACK && e.row[5 * n].target_slot == 5 * n + 1;
     assert_int_equal(first, CREWS);
 }
 
@@ -137,16 +139,16 @@ static void test_no_crew_takes_a_wreck_or_what_is_out_of_reach(void **state)
     uint32_t row = put("tank", 25000.0, 25000.0, FORCE_BLUE, BEHAVIOUR_IDLE);
     uint32_t wreck = put("tank", 25000.0, 24700.0, FORCE_RED, BEHAVIOUR_HOLD);
     (void)state;
-    steps_rows(&f).state[wreck] = ENTITY_WRECK;
+    steps_rows(&f).row[wreck].state = ENTITY_WRECK;
     steps_kind(&f, "tank")->sight_m = 5000.0;
     put("tank", 25000.0, 22000.0, FORCE_RED, BEHAVIOUR_HOLD);
     fixture_run(&f, 60 * HZ);
-    assert_int_equal(steps_rows(&f).behaviour[row], BEHAVIOUR_IDLE);
+    assert_int_equal(steps_rows(&f).row[row].behaviour, BEHAVIOUR_IDLE);
     steps_serial_context(&f, &step, &context);
     assert_int_equal(target_search(&step, row, TARGET_SEARCH_ALERT), SLOT_NONE);
     uint32_t near = put("tank", 25000.0, 24000.0, FORCE_RED, BEHAVIOUR_HOLD);
     fixture_run(&f, 60 * HZ);
-    assert_int_equal(steps_rows(&f).target_slot[row], near);
+    assert_int_equal(steps_rows(&f).row[row].target_slot, near);
 }
 
 /* An agent that may begin to cruise looks ahead of its turn, and again in each of the next tries if
@@ -163,7 +165,7 @@ static void test_looks_ahead_of_a_turn_are_one_look(void **state)
     fixture_run(&f, 1);
     steps_serial_context(&f, &step, &context);
     for (uint64_t look = 100; look < 200; look++) {
-        uint64_t turn = look * step.look_frames - steps_rows(&f).id[row];
+        uint64_t turn = look * step.look_frames - steps_rows(&f).row[row].id;
         step.tick = turn;
         uint32_t target = target_search(&step, row, TARGET_SEARCH_CALM);
         for (uint32_t ahead = 1; ahead < step.look_frames; ahead++) {

@@ -31,9 +31,9 @@ static void open_with(const char *text)
     fixture_open(&f, text);
     tank = put("tank", 25000.0, BEHAVIOUR_PATROL);
     struct entities e = steps_rows(&f);
-    e.goal_x[tank] = 25000.0;
-    e.goal_z[tank] = 20000.0;
-    e.throttle[tank] = 0.75f;
+    e.row[tank].goal_x = 25000.0;
+    e.row[tank].goal_z = 20000.0;
+    e.row[tank].throttle = 0.75f;
 }
 
 static int open_world(void **state)
@@ -66,26 +66,26 @@ static void test_a_vehicle_on_its_way_cruises_for_half_a_second(void **state)
     (void)state;
     assert_true(begins(tank));
     struct state first = fixture_state(&f);
-    uint32_t left = first.entities.cruise_tick[tank] - (uint32_t)first.head->tick + 1;
+    uint32_t left = first.entities.row[tank].cruise_tick - (uint32_t)first.head->tick + 1;
     assert_true(left == FRAMES || left == 20 || left == 10);
     if (left < FRAMES)
         fixture_run(&f, left);
     struct state begun = fixture_state(&f);
     uint64_t tick = begun.head->tick;
     struct entities e = begun.entities;
-    double x = e.x[tank], z = e.z[tank], fuel = e.fuel_l[tank];
-    assert_int_equal(e.cruise_tick[tank], tick - 1 + FRAMES);
+    double x = e.row[tank].x, z = e.row[tank].z, fuel = e.row[tank].fuel_l;
+    assert_int_equal(e.row[tank].cruise_tick, tick - 1 + FRAMES);
     for (uint32_t i = 1; i < FRAMES - 1; i++) { /* nothing writes to its row */
         fixture_run(&f, 1);
         e = steps_rows(&f);
-        assert_true(e.x[tank] == x && e.z[tank] == z && e.fuel_l[tank] == fuel);
+        assert_true(e.row[tank].x == x && e.row[tank].z == z && e.row[tank].fuel_l == fuel);
     }
     assert_true(cruises(tank));
     fixture_run(&f, 1);
     assert_false(cruises(tank));
     fixture_run(&f, 1); /* and the next stretch begins */
     assert_true(cruises(tank));
-    assert_true(steps_rows(&f).z[tank] < z - 4.0);
+    assert_true(steps_rows(&f).row[tank].z < z - 4.0);
 }
 
 /* The stretch is the motion of the frames that it stands for. */
@@ -102,8 +102,8 @@ static void test_a_stretch_is_the_motion_of_its_frames(void **state)
     open_with("");
     fixture_run(&f, (uint32_t)frame);
     struct entities e = steps_rows(&f);
-    assert_true(fabs(at.x - e.x[tank]) < 0.05 && fabs(at.z - e.z[tank]) < 0.3);
-    assert_true(fabs(maths_wrap_half(heading - e.heading[tank])) < 0.01);
+    assert_true(fabs(at.x - e.row[tank].x) < 0.05 && fabs(at.z - e.row[tank].z) < 0.3);
+    assert_true(fabs(maths_wrap_half(heading - e.row[tank].heading)) < 0.01);
 }
 
 /* It does not wait for the next turn of its group. */
@@ -115,15 +115,15 @@ static void test_one_whose_stretch_has_ended_tries_again(void **state)
     uint32_t moved = 0;
     struct entities e = steps_rows(&f);
     struct state now = fixture_state(&f);
-    static uint64_t changed[CHECKSUM_BLOCKS];
-    const struct table_writer writer = {&e, changed, NULL, NULL};
+    static uint64_t written[ROW_BLOCK_WORDS];
+    const struct table_writer writer = {&e, NULL, written};
     assert_true(
         cruise_pose_end(&writer, &f.view.world, NULL, tank, now.head->tick, now.head->tick));
     for (; !cruises(tank) && moved < FRAMES; moved++)
         fixture_run(&f, 1);
     assert_in_range(moved, 1, 10);
     now = fixture_state(&f);
-    assert_int_equal((now.entities.cruise_tick[tank] + 1 - now.head->tick) % 10, 0);
+    assert_int_equal((now.entities.row[tank].cruise_tick + 1 - now.head->tick) % 10, 0);
 }
 
 /* One whose stretch was made shorter does not wait when it ends. */
@@ -134,8 +134,8 @@ static void test_one_whose_stretch_ends_by_itself_begins_anew(void **state)
     fixture_run(&f, FRAMES + 3);
     struct entities e = steps_rows(&f);
     const uint64_t tick = fixture_state(&f).head->tick;
-    static uint64_t changed[CHECKSUM_BLOCKS];
-    const struct table_writer writer = {&e, changed, NULL, NULL};
+    static uint64_t written[ROW_BLOCK_WORDS];
+    const struct table_writer writer = {&e, NULL, written};
     assert_true(cruises(tank));
     assert_true(cruise_pose_end(&writer, &f.view.world, NULL, tank, tick + 6, tick));
     fixture_run(&f, 6);
@@ -188,8 +188,9 @@ static void test_a_command_ends_the_stretch(void **state)
     fixture_run(&f, 1);
     struct entities e = steps_rows(&f);
     assert_false(cruises(tank));
-    assert_int_equal(e.behaviour[tank], BEHAVIOUR_DRIVEN);
-    assert_true(e.z[tank] < at.z && e.z[tank] > at.z + 1.1 * now.entities.vz[tank] / 60.0);
+    assert_int_equal(e.row[tank].behaviour, BEHAVIOUR_DRIVEN);
+    assert_true(e.row[tank].z < at.z &&
+                e.row[tank].z > at.z + 1.1 * now.entities.row[tank].vz / 60.0);
 }
 
 /* What comes into the way of a stretch ends it, in the frame in which it is there. */
@@ -199,10 +200,10 @@ static void test_what_comes_into_its_way_ends_it(void **state)
     assert_true(begins(tank));
     fixture_run(&f, 3);
     struct command spawn = {.source = 1, .type = COMMAND_SPAWN, .kind = fixture_kind(&f, "truck")};
-    spawn.value[0] = steps_rows(&f).x[tank];
-    spawn.value[1] = steps_rows(&f).z[tank] - 5.0;
+    spawn.value[0] = steps_rows(&f).row[tank].x;
+    spawn.value[1] = steps_rows(&f).row[tank].z - 5.0;
     steps_send(&f, RING_CLIENTS, spawn);
-    assert_true(steps_rows(&f).cruise_tick[tank] > fixture_state(&f).head->tick + 10);
+    assert_true(steps_rows(&f).row[tank].cruise_tick > fixture_state(&f).head->tick + 10);
     fixture_run(&f, 1);
     assert_false(cruises(tank));
 }
@@ -212,13 +213,13 @@ static void test_what_is_in_the_way_lets_none_begin(void **state)
     (void)state;
     uint32_t stands = put("truck", 25003.5, BEHAVIOUR_HOLD); /* beside it: no collision */
     struct entities e = steps_rows(&f);
-    e.vz[stands] = 0.0;
-    e.vz[tank] = e.throttle[tank] = 0.0f;
-    e.flags[tank] |= ENTITY_FLAG_HOLD_FIRE;
+    e.row[stands].vz = 0.0;
+    e.row[tank].vz = e.row[tank].throttle = 0.0f;
+    e.row[tank].flags |= ENTITY_FLAG_HOLD_FIRE;
     for (uint32_t i = 0; i < FRAMES; i++) {
         fixture_run(&f, 1);
         e = steps_rows(&f);
-        assert_false(cruises(tank) && e.z[tank] > 24996.0);
+        assert_false(cruises(tank) && e.row[tank].z > 24996.0);
     }
 }
 
@@ -233,13 +234,13 @@ static void test_one_that_avoids_something_cruises_until_it_decides(void **state
     for (uint32_t i = 0; i < 6 * FRAMES; i++) {
         fixture_run(&f, 1);
         struct state now = fixture_state(&f);
-        if (now.entities.dodge[tank] == 0.0f)
+        if (now.entities.row[tank].dodge == 0.0f)
             continue;
         dodges++;
         if (!cruise_goes(&now.entities, tank, now.head->tick))
             continue;
         went++;
-        assert_in_range(now.entities.cruise_tick[tank] - now.head->tick, 1, 5);
+        assert_in_range(now.entities.row[tank].cruise_tick - now.head->tick, 1, 5);
     }
     assert_true(dodges > 2 * FRAMES);
     assert_true(went > dodges / 2);
@@ -259,11 +260,11 @@ static uint32_t cruised_of_helicopter(uint32_t decides_every)
     f.stepper.mover.decides_every = decides_every;
     uint32_t row = put("helicopter", 26000.0, BEHAVIOUR_PATROL);
     struct entities e = steps_rows(&f);
-    e.y[row] += 80.0;
-    e.vz[row] = 0.0;
-    e.goal_x[row] = 26000.0;
-    e.goal_z[row] = 20000.0;
-    e.throttle[row] = 0.75f;
+    e.row[row].y += 80.0;
+    e.row[row].vz = 0.0;
+    e.row[row].goal_x = 26000.0;
+    e.row[row].goal_z = 20000.0;
+    e.row[row].throttle = 0.75f;
     for (uint32_t i = 0; i < 8 * FRAMES; i++) {
         fixture_run(&f, 1);
         cruised += cruises(row);

@@ -38,14 +38,14 @@ static uint32_t put(const char *kind, double x, double z, double height, double 
                                                 .heading_rad = HALF_PI,
                                                 .behaviour = BEHAVIOUR_PATROL});
     struct entities e = steps_rows(&f);
-    e.behaviour[row] = e.order[row] = (uint8_t)behaviour;
+    e.row[row].behaviour = e.row[row].order = (uint8_t)behaviour;
     return row;
 }
 
 static double height_of(uint32_t row)
 {
     struct entities e = steps_rows(&f);
-    return e.y[row] - steps_ground_at(&f, e.x[row], e.z[row]);
+    return e.row[row].y - steps_ground_at(&f, e.row[row].x, e.row[row].z);
 }
 
 static void test_a_helicopter_keeps_its_height_over_ridges(void **state)
@@ -59,15 +59,15 @@ static void test_a_helicopter_keeps_its_height_over_ridges(void **state)
     row = put("helicopter", 20000.0, 25000.0, kind->cruise_altitude_m, 40.0, BEHAVIOUR_PATROL);
     for (int frame = 0; frame < frames; frame++) {
         struct entities e = steps_rows(&f);
-        e.goal_x[row] = 40000.0; /* on east */
-        e.goal_z[row] = 25000.0;
+        e.row[row].goal_x = 40000.0; /* on east */
+        e.row[row].goal_z = 25000.0;
         fixture_run(&f, 1);
         sum += height_of(row);
         least = maths_min(least, height_of(row));
     }
-    assert_true(steps_rows(&f).x[row] > 27000.0); /* it went over three and more */
+    assert_true(steps_rows(&f).row[row].x > 27000.0); /* it went over three and more */
     assert_true(least > 10.0 && fabs(sum / frames - kind->cruise_altitude_m) < 40.0);
-    assert_int_equal(steps_rows(&f).state[row], ENTITY_ACTIVE);
+    assert_int_equal(steps_rows(&f).row[row].state, ENTITY_ACTIVE);
 }
 
 static void test_a_helicopter_hovers(void **state)
@@ -100,10 +100,10 @@ static void test_a_jet_never_stalls_by_its_agent(void **state)
         assert_true(airspeed(idle) > kind->min_speed_mps - 1e-6);
         assert_true(frame < 10 * HZ || airspeed(idle) > 1.25 * kind->min_speed_mps);
         assert_true(airspeed(patrol) > 1.25 * kind->min_speed_mps);
-        assert_true(hypot(e.vx[patrol], e.vz[patrol]) < kind->max_speed_mps + 1e-6);
+        assert_true(hypot(e.row[patrol].vx, e.row[patrol].vz) < kind->max_speed_mps + 1e-6);
     }
-    assert_int_equal(steps_rows(&f).state[idle], ENTITY_ACTIVE);
-    assert_int_equal(steps_rows(&f).state[patrol], ENTITY_ACTIVE);
+    assert_int_equal(steps_rows(&f).row[idle].state, ENTITY_ACTIVE);
+    assert_int_equal(steps_rows(&f).row[patrol].state, ENTITY_ACTIVE);
 }
 
 static void test_climbing_stays_within_the_kinds_rate(void **state)
@@ -113,11 +113,11 @@ static void test_climbing_stays_within_the_kinds_rate(void **state)
     (void)state;
     for (int frame = 0; frame < (int)(30.0 * HZ); frame++) {
         steps_drive(&f, row, 0.3, 0.0, frame < 300 ? 1.0 : -0.6);
-        assert_true(fabs(steps_rows(&f).vy[row]) <= kind->climb_rate_mps + 1e-9);
+        assert_true(fabs(steps_rows(&f).row[row].vy) <= kind->climb_rate_mps + 1e-9);
         if (frame == 299)
-            assert_true(fabs(steps_rows(&f).vy[row] - kind->climb_rate_mps) < 0.01);
+            assert_true(fabs(steps_rows(&f).row[row].vy - kind->climb_rate_mps) < 0.01);
     }
-    assert_true(steps_rows(&f).vy[row] < -5.0);
+    assert_true(steps_rows(&f).row[row].vy < -5.0);
 }
 
 static void test_patrols_stay_inside_the_world(void **state)
@@ -131,8 +131,8 @@ static void test_patrols_stay_inside_the_world(void **state)
         fixture_run(&f, 1);
         struct entities e = steps_rows(&f);
         for (uint32_t n = 0; n < 6; n++)
-            assert_true(e.x[row[n]] >= 0.0 && e.x[row[n]] <= WORLD_SIDE_DEFAULT_M &&
-                        e.z[row[n]] >= 0.0 && e.z[row[n]] <= WORLD_SIDE_DEFAULT_M);
+            assert_true(e.row[row[n]].x >= 0.0 && e.row[row[n]].x <= WORLD_SIDE_DEFAULT_M &&
+                        e.row[row[n]].z >= 0.0 && e.row[row[n]].z <= WORLD_SIDE_DEFAULT_M);
     }
 }
 
@@ -144,17 +144,17 @@ static double turns_back(const char *name, double off_m, double heading, bool dr
     double speed = 0.9 * kind->max_speed_mps, hardest = 0.0;
     uint32_t row = put(name, 50000.0 - off_m, 25000.0, 900.0, 0.0, BEHAVIOUR_PATROL);
     struct entities e = steps_rows(&f);
-    e.heading[row] = heading;
-    e.vx[row] = speed * sin(heading), e.vz[row] = -speed * cos(heading);
+    e.row[row].heading = heading;
+    e.row[row].vx = speed * sin(heading), e.row[row].vz = -speed * cos(heading);
     if (driven)
         steps_drive(&f, row, 1.0, 0.0, 0.0);
     for (int frame = 0; frame < (int)(40.0 * HZ); frame++) {
         e = steps_rows(&f);
         struct vec3 before = steps_velocity(&f, row);
-        e.goal_x[row] = 60000.0, e.goal_z[row] = 25000.0; /* its agent wants to go on */
+        e.row[row].goal_x = 60000.0, e.row[row].goal_z = 25000.0; /* its agent wants to go on */
         fixture_run(&f, 1);
         e = steps_rows(&f);
-        assert_int_equal(e.state[row], ENTITY_ACTIVE);
+        assert_int_equal(e.row[row].state, ENTITY_ACTIVE);
         struct vec3 felt = vec3_scale(vec3_sub(steps_velocity(&f, row), before), HZ);
         felt.y += GRAVITY_MPS2;
         hardest = maths_max(hardest, vec3_length(felt) / GRAVITY_MPS2);
@@ -183,10 +183,10 @@ static void test_a_helicopter_does_not_fly_backwards_over_the_edge(void **state)
 {
     uint32_t row = put("helicopter", 49700.0, 25000.0, 200.0, 0.0, BEHAVIOUR_IDLE);
     (void)state;
-    steps_rows(&f).heading[row] = 1.5 * PI;
+    steps_rows(&f).row[row].heading = 1.5 * PI;
     steps_drive(&f, row, -1.0, 0.0, 0.0);
     fixture_run(&f, (uint32_t)(120.0 * HZ));
-    assert_int_equal(steps_rows(&f).state[row], ENTITY_ACTIVE);
+    assert_int_equal(steps_rows(&f).row[row].state, ENTITY_ACTIVE);
 }
 
 /* A jet that is too slow to turn leaves the world without a jump. */
@@ -195,7 +195,7 @@ static void test_what_cannot_turn_back_leaves_the_world(void **state)
     uint32_t row = put("jet", 49800.0, 25000.0, 900.0, 250.0, BEHAVIOUR_IDLE);
     (void)state;
     steps_drive(&f, row, 1.0, 0.0, 0.0);
-    for (double before = 250.0; steps_rows(&f).state[row] == ENTITY_ACTIVE;) {
+    for (double before = 250.0; steps_rows(&f).row[row].state == ENTITY_ACTIVE;) {
         assert_true(fabs(airspeed(row) - before) < 20.0 / HZ);
         before = airspeed(row);
         fixture_run(&f, 1);
@@ -211,13 +211,13 @@ static void test_it_banks_into_its_turn(void **state)
     (void)state;
     steps_drive(&f, row, 1.0, 1.0, 0.0);
     fixture_run(&f, (uint32_t)(3.0 * HZ));
-    assert_true(steps_rows(&f).roll[row] > 1.0 && steps_rows(&f).roll[row] < HALF_PI);
+    assert_true(steps_rows(&f).row[row].roll > 1.0 && steps_rows(&f).row[row].roll < HALF_PI);
     steps_drive(&f, row, 1.0, -1.0, 0.0);
     fixture_run(&f, (uint32_t)(3.0 * HZ));
-    assert_true(steps_rows(&f).roll[row] < -1.0);
+    assert_true(steps_rows(&f).row[row].roll < -1.0);
     steps_drive(&f, row, 1.0, 0.0, 0.0);
     fixture_run(&f, (uint32_t)(3.0 * HZ));
-    assert_true(fabs(steps_rows(&f).roll[row]) < 1e-6);
+    assert_true(fabs(steps_rows(&f).row[row].roll) < 1e-6);
 }
 
 /* It burns a fifth of full throttle, every ten seconds. */
@@ -229,13 +229,13 @@ static void test_a_helicopter_that_hovers_burns_its_fuel_at_times(void **state)
     uint32_t changes = 0;
     (void)state;
     fixture_run(&f, (uint32_t)HZ);
-    double before = steps_rows(&f).fuel_l[row];
+    double before = steps_rows(&f).row[row].fuel_l;
     for (int frame = 0; frame < 20 * (int)HZ; frame++) {
-        double last = steps_rows(&f).fuel_l[row];
+        double last = steps_rows(&f).row[row].fuel_l;
         fixture_run(&f, 1);
-        changes += steps_rows(&f).fuel_l[row] != last;
+        changes += steps_rows(&f).row[row].fuel_l != last;
     }
-    double burnt = before - steps_rows(&f).fuel_l[row];
+    double burnt = before - steps_rows(&f).row[row].fuel_l;
     assert_int_equal(changes, 2);
     assert_true(fabs(burnt - 20.0 * 0.2 * kind->fuel_lps) < 1e-9);
 }
@@ -244,13 +244,13 @@ static void test_without_fuel_it_comes_down(void **state)
 {
     uint32_t row = put("helicopter", 25000.0, 25000.0, 200.0, 20.0, BEHAVIOUR_PATROL);
     (void)state;
-    steps_rows(&f).fuel_l[row] = 0.0;
+    steps_rows(&f).row[row].fuel_l = 0.0;
     fixture_run(&f, (uint32_t)(5.0 * HZ));
-    assert_true(steps_rows(&f).vy[row] == -steps_kind(&f, "helicopter")->climb_rate_mps);
+    assert_true(steps_rows(&f).row[row].vy == -steps_kind(&f, "helicopter")->climb_rate_mps);
     fixture_run(&f, (uint32_t)(20.0 * HZ));
     /* It lies on its belly, its middle half of its height over the ground. */
     double half = 0.5 * steps_kind(&f, "helicopter")->height_m;
-    assert_true(fabs(steps_rows(&f).y[row] - FIXTURE_GROUND_M - half) < 0.1);
+    assert_true(fabs(steps_rows(&f).row[row].y - FIXTURE_GROUND_M - half) < 0.1);
 }
 
 static void test_a_driven_helicopter_follows_stick_and_collective(void **state)
@@ -260,19 +260,19 @@ static void test_a_driven_helicopter_follows_stick_and_collective(void **state)
     (void)state;
     steps_drive(&f, row, -1.0, 0.0, 0.0);
     fixture_run(&f, (uint32_t)(10.0 * HZ));
-    assert_true(fabs(steps_rows(&f).vx[row] + 0.25 * kind->max_speed_mps) < 1e-9);
-    assert_true(steps_rows(&f).pitch[row] > 0.0); /* it leans back */
-    double height = steps_rows(&f).y[row];
+    assert_true(fabs(steps_rows(&f).row[row].vx + 0.25 * kind->max_speed_mps) < 1e-9);
+    assert_true(steps_rows(&f).row[row].pitch > 0.0); /* it leans back */
+    double height = steps_rows(&f).row[row].y;
     steps_drive(&f, row, 0.0, 1.0, 0.0); /* comes to a hover and turns there */
     fixture_run(&f, (uint32_t)(10.0 * HZ));
-    assert_true(steps_speed(&f, row) < 1e-9 && steps_rows(&f).y[row] == height);
-    double heading = steps_rows(&f).heading[row];
+    assert_true(steps_speed(&f, row) < 1e-9 && steps_rows(&f).row[row].y == height);
+    double heading = steps_rows(&f).row[row].heading;
     fixture_run(&f, (uint32_t)HZ);
-    assert_true(fabs(maths_wrap_half(steps_rows(&f).heading[row] - heading) - kind->turn_rate_rps) <
-                1e-9);
+    assert_true(fabs(maths_wrap_half(steps_rows(&f).row[row].heading - heading) -
+                     kind->turn_rate_rps) < 1e-9);
     steps_drive(&f, row, 0.0, 0.0, 0.5);
     fixture_run(&f, (uint32_t)(5.0 * HZ));
-    assert_true(fabs(steps_rows(&f).vy[row] - 0.5 * kind->climb_rate_mps) < 1e-9);
+    assert_true(fabs(steps_rows(&f).row[row].vy - 0.5 * kind->climb_rate_mps) < 1e-9);
 }
 
 static void test_a_jets_throttle_is_above_its_least_speed_and_its_brake_slows_it(void **state)
@@ -292,7 +292,7 @@ static void test_a_jets_throttle_is_above_its_least_speed_and_its_brake_slows_it
         steps_drive(&f, row, throttle[n], 0.0, 0.0);
         fixture_run(&f, (uint32_t)(60.0 * HZ));
         assert_true(fabs(steps_speed(&f, row) - kind->min_speed_mps - faster) < 1e-6);
-        assert_true(fabs(steps_rows(&f).vy[row]) < 1e-6);
+        assert_true(fabs(steps_rows(&f).row[row].vy) < 1e-6);
     }
 }
 
@@ -304,8 +304,8 @@ static void test_nothing_is_nan_with_a_kind_that_cannot_fly(void **state)
     kind->max_speed_mps = 0.0; /* config/ allows it */
     fixture_run(&f, 10);
     struct entities e = steps_rows(&f);
-    assert_true(isfinite(e.x[row]) && isfinite(e.y[row]) && isfinite(e.pitch[row]) &&
-                isfinite(e.fuel_l[row]));
+    assert_true(isfinite(e.row[row].x) && isfinite(e.row[row].y) && isfinite(e.row[row].pitch) &&
+                isfinite(e.row[row].fuel_l));
 }
 
 int main(void)

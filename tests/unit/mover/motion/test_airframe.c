@@ -76,7 +76,7 @@ static double hardest_load(uint32_t row, uint64_t seed)
                     maths_clamp(up, -1.0, 1.0));
         for (int frame = 0; frame < (int)(1.5 * hz); frame++)
             hardest = maths_max(hardest, load_in_a_frame(row));
-        steps_rows(&f).y[row] = FIXTURE_GROUND_M + 3000.0; /* it never strikes the ground */
+        steps_rows(&f).row[row].y = FIXTURE_GROUND_M + 3000.0; /* it never strikes the ground */
     }
     return hardest;
 }
@@ -104,11 +104,11 @@ static void test_loads_stay_within_what_airframes_bear(void **state)
 static double turn_hard(uint32_t row, double lead_s, double *speed, double *bank)
 {
     seconds(lead_s);
-    double before = steps_rows(&f).heading[row];
+    double before = steps_rows(&f).row[row].heading;
     seconds(0.25);
-    *speed = vec3_length(velocity_of(row)), *bank = fabs(steps_rows(&f).roll[row]);
+    *speed = vec3_length(velocity_of(row)), *bank = fabs(steps_rows(&f).row[row].roll);
     seconds(0.25);
-    return fabs(maths_wrap_half(steps_rows(&f).heading[row] - before)) / 0.5;
+    return fabs(maths_wrap_half(steps_rows(&f).row[row].heading - before)) / 0.5;
 }
 
 static void test_a_turn_follows_from_the_load(void **state)
@@ -188,12 +188,12 @@ static void test_below_its_stalling_speed_an_aeroplane_falls_until_it_is_faster(
     uint32_t jet = put("jet", 3000.0, 80.0, BEHAVIOUR_IDLE);
     steps_drive(&f, jet, 0.0, 0.0, 1.0);
     struct entities e = steps_rows(&f);
-    e.brake[jet] = 1.0f;
+    e.row[jet].brake = 1.0f;
     double stall = steps_kind(&f, "jet")->min_speed_mps, slowest = 1e9, lowest = 0.0;
     for (int frame = 0; frame < (int)(20.0 * hz); frame++) {
         fixture_run(&f, 1);
         slowest = maths_min(slowest, vec3_length(velocity_of(jet)));
-        lowest = maths_min(lowest, steps_rows(&f).pitch[jet]);
+        lowest = maths_min(lowest, steps_rows(&f).row[jet].pitch);
     }
     assert_true(slowest < stall && lowest < -0.1 && velocity_of(jet).y < -3.0);
     steps_drive(&f, jet, 1.0, 0.0, 0.0);
@@ -264,11 +264,11 @@ static void test_an_agent_climbs_before_it_banks(void **state)
 {
     (void)state;
     uint32_t row = put("helicopter", 10.0, 45.0, BEHAVIOUR_PATROL);
-    steps_rows(&f).goal_x[row] = 15000.0, steps_rows(&f).goal_z[row] = 25000.0;
+    steps_rows(&f).row[row].goal_x = 15000.0, steps_rows(&f).row[row].goal_z = 25000.0;
     seconds(2.5);
     print_message("in a turn of %.0f degrees of bank an agent climbs %.1f m/s\n",
-                  fabs(steps_rows(&f).roll[row]) * DEG_PER_RAD, velocity_of(row).y);
-    assert_true(velocity_of(row).y > 8.0 && fabs(steps_rows(&f).roll[row]) > 0.1);
+                  fabs(steps_rows(&f).row[row].roll) * DEG_PER_RAD, velocity_of(row).y);
+    assert_true(velocity_of(row).y > 8.0 && fabs(steps_rows(&f).row[row].roll) > 0.1);
 }
 
 /* One that is slow, and in the steepest turn that its engine bears, rolls out of it to climb. */
@@ -277,15 +277,15 @@ static void test_an_agent_rolls_out_to_climb(void **state)
     (void)state;
     uint32_t row = put("helicopter", 15.0, 23.0, BEHAVIOUR_PATROL);
     struct entities e = steps_rows(&f);
-    e.roll[row] = 0.95f;
+    e.row[row].roll = 0.95f;
     for (int frame = 0; frame < (int)(3.0 * hz); frame++) {
         e = steps_rows(&f);
-        e.goal_x[row] = e.x[row] + 5000.0 * maths_sin(e.heading[row] + 2.5);
-        e.goal_z[row] = e.z[row] - 5000.0 * maths_cos(e.heading[row] + 2.5);
+        e.row[row].goal_x = e.row[row].x + 5000.0 * maths_sin(e.row[row].heading + 2.5);
+        e.row[row].goal_z = e.row[row].z - 5000.0 * maths_cos(e.row[row].heading + 2.5);
         fixture_run(&f, 1);
     }
     print_message("from 54 degrees of bank, after 3 s: %.0f degrees, climbs %.1f m/s\n",
-                  fabs(steps_rows(&f).roll[row]) * DEG_PER_RAD, velocity_of(row).y);
+                  fabs(steps_rows(&f).row[row].roll) * DEG_PER_RAD, velocity_of(row).y);
     assert_true(velocity_of(row).y > 8.0);
 }
 
@@ -303,7 +303,7 @@ static void test_without_fuel_an_aeroplane_glides(void **state)
 {
     (void)state;
     uint32_t jet = put("jet", 3000.0, 200.0, BEHAVIOUR_PATROL);
-    steps_rows(&f).fuel_l[jet] = 0.0;
+    steps_rows(&f).row[jet].fuel_l = 0.0;
     for (int s = 0; s < 60; s++) {
         seconds(1.0);
         assert_true(vec3_length(velocity_of(jet)) > steps_kind(&f, "jet")->min_speed_mps);
@@ -325,19 +325,19 @@ static void test_a_helicopter_leans_before_it_gains_speed(void **state)
         if (frame == (int)(3.0 * hz))
             tell("helicopter, acceleration over g tan(tilt)", 1.0,
                  (velocity_of(row).x - before) * hz / GRAVITY_MPS2 /
-                     tan(-steps_rows(&f).pitch[row]),
+                     tan(-steps_rows(&f).row[row].pitch),
                  0.05);
-        tilt = maths_max(tilt, -steps_rows(&f).pitch[row]);
+        tilt = maths_max(tilt, -steps_rows(&f).row[row].pitch);
     }
     print_message("helicopter, tilt %.2f degrees\n", tilt * DEG_PER_RAD);
     assert_true(tilt <= 30.0 * RAD_PER_DEG + 1e-9 && tilt > 20.0 * RAD_PER_DEG);
     assert_true(fabs(velocity_of(row).x - steps_kind(&f, "helicopter")->max_speed_mps) < 0.01);
-    assert_true(steps_rows(&f).pitch[row] < -8.0 * RAD_PER_DEG);
+    assert_true(steps_rows(&f).row[row].pitch < -8.0 * RAD_PER_DEG);
     steps_drive(&f, row, 0.0, 0.0, 0.0);
     seconds(1.0);
-    assert_true(steps_rows(&f).pitch[row] > 5.0 * RAD_PER_DEG); /* it flares */
+    assert_true(steps_rows(&f).row[row].pitch > 5.0 * RAD_PER_DEG); /* it flares */
     seconds(39.0);
-    assert_true(steps_speed(&f, row) == 0.0 && fabs(steps_rows(&f).pitch[row]) < 1e-6);
+    assert_true(steps_speed(&f, row) == 0.0 && fabs(steps_rows(&f).row[row].pitch) < 1e-6);
 }
 
 /* Where a jet and a helicopter are after the same flight at another rate. */
@@ -351,11 +351,11 @@ static void fly_course(double rate, struct vec3 at[2])
     for (int leg = 0; leg < 3; leg++) {
         for (int n = 0; n < 2; n++) {
             struct entities e = steps_rows(&f);
-            e.behaviour[row[n]] = BEHAVIOUR_DRIVEN;
-            e.until_tick[row[n]] = UINT32_MAX;
-            e.throttle[row[n]] = (float)course[leg][0];
-            e.steer[row[n]] = (float)course[leg][1];
-            e.climb[row[n]] = (float)course[leg][2];
+            e.row[row[n]].behaviour = BEHAVIOUR_DRIVEN;
+            e.row[row[n]].until_tick = UINT32_MAX;
+            e.row[row[n]].throttle = (float)course[leg][0];
+            e.row[row[n]].steer = (float)course[leg][1];
+            e.row[row[n]].climb = (float)course[leg][2];
         }
         seconds(6.0);
     }
@@ -368,7 +368,7 @@ static void fly_course(double rate, struct vec3 at[2])
 
 static double spool(uint32_t row)
 {
-    return 1.0 - (double)steps_rows(&f).dodge[row];
+    return 1.0 - (double)steps_rows(&f).row[row].dodge;
 }
 
 /* Waits until the engine gives this share of its power, and returns the time [s]. */
@@ -432,7 +432,7 @@ static void test_a_driver_takes_over_an_engine_that_runs(void **state)
 {
     (void)state;
     uint32_t row = put("jet", 3000.0, 200.0, BEHAVIOUR_IDLE);
-    steps_rows(&f).dodge[row] = 0.4f; /* its agent goes around something */
+    steps_rows(&f).row[row].dodge = 0.4f; /* its agent goes around something */
     steps_drive(&f, row, 1.0, 0.0, 0.0);
     seconds(0.1);
     assert_true(spool(row) > 0.95);
@@ -461,8 +461,8 @@ static uint64_t digest_on(uint32_t threads)
     for (uint32_t n = 0; n < 40; n++) {
         uint32_t row = put(n % 2 ? "jet" : "helicopter", 200.0 + 20.0 * n, 90.0, BEHAVIOUR_PATROL);
         struct entities e = steps_rows(&f);
-        e.z[row] += 300.0 * n;
-        e.goal_x[row] = 10000.0 + 700.0 * n, e.goal_z[row] = 30000.0 - 300.0 * n;
+        e.row[row].z += 300.0 * n;
+        e.row[row].goal_x = 10000.0 + 700.0 * n, e.row[row].goal_z = 30000.0 - 300.0 * n;
     }
     seconds(30.0);
     return fixture_digest(&f);

@@ -3,6 +3,7 @@
 #include "mover/motion/chassis.h"
 #include "mover/motion/tyre.h"
 #include "tests/support/steps.h"
+#include "world/checksum.h"
 #include "world/params.h"
 
 #include <stdarg.h>
@@ -10,6 +11,7 @@
 #include <setjmp.h>
 #include <stdint.h>
 #include <stdio.h>
+#include <string.h>
 
 #include <cmocka.h>
 
@@ -58,7 +60,8 @@ static uint32_t put(const char *kind, double x, double speed_mps)
 static double speed_of(uint32_t row)
 {
     struct entities e = steps_rows(&f);
-    return sqrt(e.vx[row] * e.vx[row] + e.vy[row] * e.vy[row] + e.vz[row] * e.vz[row]);
+    return sqrt(e.row[row].vx * e.row[row].vx + e.row[row].vy * e.row[row].vy +
+                e.row[row].vz * e.row[row].vz);
 }
 
 /* --- power and brakes --------------------------------------------------------------------------*/
@@ -81,7 +84,7 @@ static double climbs_at(const char *kind, double grade)
     reopen("");
     steps_plane(&f, grade, 0.0);
     uint32_t row = put(kind, 25000.0, 5.0);
-    steps_rows(&f).pitch[row] = maths_atan2(grade, 1.0);
+    steps_rows(&f).row[row].pitch = maths_atan2(grade, 1.0);
     for (uint32_t frame = 0; frame < 20 * HZ; frame++)
         steps_drive(&f, row, 1.0, 0.0, 0.0);
     return speed_of(row);
@@ -94,7 +97,7 @@ static double stops_in(const char *kind, double mps)
     for (uint32_t frame = 0; frame < 10 * HZ; frame++)
         steps_pedals(&f, row, 0.0, 1.0, GEAR_AUTOMATIC);
     assert_true(speed_of(row) < 0.01);
-    return steps_rows(&f).x[row] - 25000.0;
+    return steps_rows(&f).row[row].x - 25000.0;
 }
 
 static void test_power_and_brakes(void **state)
@@ -114,7 +117,7 @@ static void test_power_and_brakes(void **state)
 static double way_of(uint32_t row)
 {
     struct entities e = steps_rows(&f);
-    return maths_heading(e.vx[row], e.vz[row]);
+    return maths_heading(e.row[row].vx, e.row[row].vz);
 }
 
 /* Drives in a full turn to the right. Returns the radius of its path; most: the
@@ -167,10 +170,10 @@ static void test_wheels_catch_a_slide(void **state)
             steps_drive(&f, row, 1.0, 0.6, 0.0);
         for (uint32_t frame = 0; frame < HZ; frame++)
             steps_drive(&f, row, 1.0, 0.0, 0.0);
-        double heading = steps_rows(&f).heading[row], speed = speed_of(row);
+        double heading = steps_rows(&f).row[row].heading, speed = speed_of(row);
         for (uint32_t frame = 0; frame < HZ; frame++)
             steps_drive(&f, row, 1.0, 0.0, 0.0);
-        double turned = fabs(maths_wrap_half(steps_rows(&f).heading[row] - heading));
+        double turned = fabs(maths_wrap_half(steps_rows(&f).row[row].heading - heading));
         printf("%s: turned by %.2f degrees in the second after, %.1f m/s\n", kinds[k],
                turned * 180.0 / PI, speed_of(row));
         assert_true(turned < 0.05 && speed_of(row) > speed);
@@ -184,13 +187,13 @@ static void test_a_tank_that_slides_aside_is_held(void **state)
     reopen("");
     uint32_t row = put("tank", 25000.0, 6.0);
     struct entities e = steps_rows(&f);
-    e.vz[row] = 20.0;
-    e.spin_y[row] = 0.2;
+    e.row[row].vz = 20.0;
+    e.row[row].spin_y = 0.2;
     steps_drive(&f, row, 0.3, 0.2, 0.0);
     fixture_run(&f, 2 * HZ);
     e = steps_rows(&f);
     row_of_table("tank, slides aside on dirt, slowing", 0.6 * GRAVITY_MPS2,
-                 0.5 * (20.0 - e.vz[row]), "m/s2", 5.0, 6.4);
+                 0.5 * (20.0 - e.row[row].vz), "m/s2", 5.0, 6.4);
 }
 
 static void test_a_tank_turns_on_the_spot(void **state)
@@ -199,12 +202,13 @@ static void test_a_tank_turns_on_the_spot(void **state)
     uint32_t row = put("tank", 25000.0, 0.0);
     double turned = 0.0;
     for (uint32_t frame = 0; frame < 5 * HZ; frame++) {
-        double before = steps_rows(&f).heading[row];
+        double before = steps_rows(&f).row[row].heading;
         steps_drive(&f, row, 0.0, 1.0, 0.0);
-        turned += maths_wrap_half(steps_rows(&f).heading[row] - before);
+        turned += maths_wrap_half(steps_rows(&f).row[row].heading - before);
     }
     row_of_table("tank, pivot in 5 s", 90.0, turned * DEG_PER_RAD, "deg", 45.0, 210.0);
-    assert_true(hypot(steps_rows(&f).x[row] - 25000.0, steps_rows(&f).z[row] - 25000.0) < 1.0);
+    assert_true(hypot(steps_rows(&f).row[row].x - 25000.0, steps_rows(&f).row[row].z - 25000.0) <
+                1.0);
 }
 
 /* --- tilt --------------------------------------------------------------------------------------*/
@@ -221,7 +225,7 @@ struct table_test {
 static void table_begin(struct table_test *test, const char *kind, double roll_rad, double mps)
 {
     uint32_t row = put(kind, 25000.0, mps);
-    steps_rows(&f).roll[row] = roll_rad;
+    steps_rows(&f).row[row].roll = roll_rad;
     steps_serial_context(&f, &test->step, &test->serial);
     test->body = rigid_body_take(&test->step, row);
     test->drivetrain = (struct drivetrain){.kind = steps_kind(&f, kind), .wanted_mps = mps};
@@ -323,20 +327,20 @@ static void test_a_jeep_jumps_off_a_ramp(void **state)
     (void)state;
     steps_ground(&f, ramp, NULL);
     uint32_t row = put("jeep", 24950.0, 13.4);
-    steps_rows(&f).pitch[row] = 10.0 * RAD_PER_DEG;
+    steps_rows(&f).row[row].pitch = 10.0 * RAD_PER_DEG;
     double left = 0.0;
     struct vec3 at = {0.0, 0.0, 0.0};
     for (uint32_t frame = 0; frame < 8 * HZ; frame++) {
         steps_drive(&f, row, 13.4 / 29.0, 0.0, 0.0);
         struct entities e = steps_rows(&f);
-        if (left == 0.0 && e.x[row] > 25000.0) {
+        if (left == 0.0 && e.row[row].x > 25000.0) {
             left = frame;
             at = entities_position(&e, row);
         }
-        if (left > 0.0 && e.y[row] < at.y && e.vy[row] < 0.0 && frame > left + 3) {
+        if (left > 0.0 && e.row[row].y < at.y && e.row[row].vy < 0.0 && frame > left + 3) {
             share_of_table("jeep, 10 degree ramp at 13.4 m/s, air time", 0.47, (frame - left) / HZ,
                            "s", 0.2);
-            share_of_table("jeep, the same, way in the air", 6.2, e.x[row] - at.x, "m", 0.2);
+            share_of_table("jeep, the same, way in the air", 6.2, e.row[row].x - at.x, "m", 0.2);
             return;
         }
     }
@@ -361,15 +365,15 @@ static double jounce(const char *kind, const char *world, uint32_t hz, double he
     double lowest = 1e9;
     reopen(world);
     uint32_t row = fixture_put(&f, hung(kind, height));
-    steps_rows(&f).flags[row] |= ENTITY_FLAG_CHASSIS;
+    steps_rows(&f).row[row].flags |= ENTITY_FLAG_CHASSIS;
     for (uint32_t frame = 0; frame < 8 * hz; frame++) {
         fixture_run(&f, 1);
-        lowest = maths_min(lowest, steps_rows(&f).y[row] - 100.0);
+        lowest = maths_min(lowest, steps_rows(&f).row[row].y - 100.0);
         if ((frame + 1) % (hz / 10) == 0)
-            height_m[frame / (hz / 10)] = steps_rows(&f).y[row] - 100.0;
+            height_m[frame / (hz / 10)] = steps_rows(&f).row[row].y - 100.0;
     }
     assert_true(speed_of(row) == 0.0); /* it stands */
-    *rest_m = steps_rows(&f).y[row] - 100.0;
+    *rest_m = steps_rows(&f).row[row].y - 100.0;
     return -lowest;
 }
 
@@ -435,13 +439,13 @@ static void go_back(uint32_t row, double *jump_m, double *speed_mps)
     for (uint32_t frame = 0; frame < 30 * HZ; frame++) {
         struct entities e = steps_rows(&f);
         const struct vec3 at = entities_position(&e, row), v = entities_velocity(&e, row);
-        bool back = !(e.flags[row] & ENTITY_FLAG_CHASSIS);
+        bool back = !(e.row[row].flags & ENTITY_FLAG_CHASSIS);
         fixture_run(&f, 1);
         e = steps_rows(&f);
         struct vec3 way = vec3_sub(entities_position(&e, row), at);
         struct vec3 off = vec3_sub(way, vec3_scale(v, 1.0 / HZ));
         struct vec3 faster = vec3_sub(entities_velocity(&e, row), v);
-        double calm = (double)(fixture_state(&f).head->tick - e.jolt_tick[row]) / HZ;
+        double calm = (double)(fixture_state(&f).head->tick - e.row[row].jolt_tick) / HZ;
         if (back)
             return;
         if (calm < CHASSIS_CALM_S - 0.1) /* not yet */
@@ -461,8 +465,8 @@ static uint32_t put_agent(const char *kind, double height_m, double mps)
                 .velocity = {mps, 0.0, 0.0},
                 .heading_rad = HALF_PI,
                 .behaviour = BEHAVIOUR_IDLE});
-    steps_rows(&f).behaviour[row] = steps_rows(&f).order[row] = BEHAVIOUR_IDLE;
-    steps_rows(&f).flags[row] |= ENTITY_FLAG_CHASSIS;
+    steps_rows(&f).row[row].behaviour = steps_rows(&f).row[row].order = BEHAVIOUR_IDLE;
+    steps_rows(&f).row[row].flags |= ENTITY_FLAG_CHASSIS;
     return row;
 }
 
@@ -473,19 +477,20 @@ static void test_a_pinned_body_stands_until_it_is_driven(void **state)
     uint32_t row = put("tank", 25000.0, 0.0);
     fixture_run(&f, HZ);
     struct entities e = steps_rows(&f);
-    double pitch = e.pitch[row] -= 0.02;
-    e.flags[row] |= ENTITY_FLAG_CHASSIS;
-    e.jolt_tick[row] = ENTITY_PINNED;
+    double pitch = e.row[row].pitch -= 0.02;
+    e.row[row].flags |= ENTITY_FLAG_CHASSIS;
+    e.row[row].jolt_tick = ENTITY_PINNED;
     const struct vec3 at = entities_position(&e, row);
     fixture_run(&f, 5 * HZ);
     e = steps_rows(&f);
-    assert_true(e.pitch[row] == pitch && e.x[row] == at.x && e.y[row] == at.y && e.z[row] == at.z);
-    assert_true(entities_still(&e, row) && e.jolt_tick[row] == ENTITY_PINNED);
-    e.throttle[row] = 1.0f;
+    assert_true(e.row[row].pitch == pitch && e.row[row].x == at.x && e.row[row].y == at.y &&
+                e.row[row].z == at.z);
+    assert_true(entities_still(&e, row) && e.row[row].jolt_tick == ENTITY_PINNED);
+    e.row[row].throttle = 1.0f;
     fixture_run(&f, HZ);
     e = steps_rows(&f);
-    assert_true(e.x[row] > at.x && fabs(e.pitch[row] - pitch) > 1e-3);
-    assert_true(e.jolt_tick[row] != ENTITY_PINNED);
+    assert_true(e.row[row].x > at.x && fabs(e.row[row].pitch - pitch) > 1e-3);
+    assert_true(e.row[row].jolt_tick != ENTITY_PINNED);
 }
 
 static void test_it_goes_back_to_the_ground_without_a_jump(void **state)
@@ -497,12 +502,12 @@ static void test_it_goes_back_to_the_ground_without_a_jump(void **state)
         reopen("");
         steps_plane(&f, 0.15, 0.1);
         uint32_t row = put_agent(kinds[n], 0.2, n & 1 ? 0.0 : 6.0);
-        steps_rows(&f).pitch[row] = maths_atan2(0.15, 1.0);
+        steps_rows(&f).row[row].pitch = maths_atan2(0.15, 1.0);
         go_back(row, &jump, &faster);
         printf("%s: back with a jump of %.4f m and %.4f m/s a frame\n", kinds[n], jump, faster);
         assert_true(jump <= 0.01 && faster <= 0.05);
         struct entities e = steps_rows(&f);
-        assert_true(fabs(e.y[row] - steps_ground_at(&f, e.x[row], e.z[row])) < 1e-6);
+        assert_true(fabs(e.row[row].y - steps_ground_at(&f, e.row[row].x, e.row[row].z)) < 1e-6);
     }
 }
 
@@ -516,23 +521,24 @@ static void test_it_goes_to_its_springs_without_a_jump(void **state)
         reopen("");
         steps_plane(&f, 0.12, 0.15);
         uint32_t row = put_agent(kinds[n], 0.0, 6.0);
-        steps_rows(&f).flags[row] = 0;
+        steps_rows(&f).row[row].flags = 0;
         fixture_run(&f, 2);
-        steps_rows(&f).vx[row] = 6.0;
+        steps_rows(&f).row[row].vx = 6.0;
         for (uint32_t frame = 0; frame < 2 * HZ; frame++) {
             struct entities e = steps_rows(&f);
             const struct vec3 at = entities_position(&e, row), v = entities_velocity(&e, row);
-            double pitch = e.pitch[row], roll = e.roll[row];
+            double pitch = e.row[row].pitch, roll = e.row[row].roll;
             steps_drive(&f, row, 6.0 / steps_kind(&f, kinds[n])->max_speed_mps, 0.0, 0.0);
             e = steps_rows(&f);
             struct vec3 way = vec3_sub(entities_position(&e, row), at);
             jump = maths_max(jump, vec3_length(vec3_sub(way, vec3_scale(v, 1.0 / HZ))));
             faster = maths_max(faster, vec3_length(vec3_sub(entities_velocity(&e, row), v)));
-            turned = maths_max(turned, fabs(e.pitch[row] - pitch) + fabs(e.roll[row] - roll));
+            turned =
+                maths_max(turned, fabs(e.row[row].pitch - pitch) + fabs(e.row[row].roll - roll));
         }
         printf("%s: driven with a jump of %.4f m, %.3f m/s and %.4f rad a frame\n", kinds[n], jump,
                faster, turned);
-        assert_true(steps_rows(&f).flags[row] & ENTITY_FLAG_CHASSIS);
+        assert_true(steps_rows(&f).row[row].flags & ENTITY_FLAG_CHASSIS);
         assert_true(jump <= 0.01 && faster <= 0.1 && turned <= 0.01);
     }
 }
@@ -541,37 +547,35 @@ static void test_an_undisturbed_agent_follows_the_ground(void **state)
 {
     (void)state;
     uint32_t row = put_agent("jeep", 0.0, 0.0);
-    steps_rows(&f).flags[row] = 0;
+    steps_rows(&f).row[row].flags = 0;
     fixture_run(&f, 3 * HZ);
-    assert_false(steps_rows(&f).flags[row] & ENTITY_FLAG_CHASSIS);
-    steps_rows(&f).spin_y[row] = 1.0; /* something has pushed it */
+    assert_false(steps_rows(&f).row[row].flags & ENTITY_FLAG_CHASSIS);
+    steps_rows(&f).row[row].spin_y = 1.0; /* something has pushed it */
     fixture_run(&f, 1);
-    assert_true(steps_rows(&f).flags[row] & ENTITY_FLAG_CHASSIS);
+    assert_true(steps_rows(&f).row[row].flags & ENTITY_FLAG_CHASSIS);
 }
 
 /* A heap sleeps only if nothing in it moves by the last bit. */
 static void test_it_keeps_every_bit_of_its_pose_at_rest(void **state)
 {
     enum { TANKS = 40 };
+    const uint64_t pose = FIELD_BIT(x) | FIELD_BIT(z) | FIELD_BIT(heading) | FIELD_BIT(pitch);
+    struct entity stood[TANKS];
     struct entities e;
-    double x[TANKS], z[TANKS], heading[TANKS], pitch[TANKS];
     (void)state;
     steps_plane(&f, 0.05, 0.03);
     for (uint32_t i = 0; i < TANKS; i++) {
         put("tank", 24000.0 + 50.0 * i, 0.0);
-        steps_rows(&f).heading[i] = 0.01 + 0.15 * i;
+        steps_rows(&f).row[i].heading = 0.01 + 0.15 * i;
     }
     fixture_run(&f, 10 * HZ);
     e = steps_rows(&f);
-    for (uint32_t i = 0; i < TANKS; i++)
-        x[i] = e.x[i], z[i] = e.z[i], heading[i] = e.heading[i], pitch[i] = e.pitch[i];
+    memcpy(stood, e.row, sizeof stood);
     for (uint32_t frame = 0; frame < 3; frame++) {
         fixture_run(&f, 1);
         e = steps_rows(&f);
-        assert_memory_equal(x, e.x, sizeof x);
-        assert_memory_equal(z, e.z, sizeof z);
-        assert_memory_equal(heading, e.heading, sizeof heading);
-        assert_memory_equal(pitch, e.pitch, sizeof pitch);
+        for (uint32_t i = 0; i < TANKS; i++)
+            assert_true((entity_differing(&stood[i], &e.row[i]) & pose) == 0);
     }
 }
 
@@ -581,8 +585,9 @@ static void test_it_keeps_every_bit_of_its_pose_at_rest(void **state)
 static double lowest_corner(uint32_t row)
 {
     struct entities e = steps_rows(&f);
-    const struct kind *kind = &f.view.world.kinds[e.kind[row]];
-    struct mat3 turn = rotation_matrix(rotation_of(e.heading[row], e.pitch[row], e.roll[row]));
+    const struct kind *kind = &f.view.world.kinds[e.row[row].kind];
+    struct mat3 turn =
+        rotation_matrix(rotation_of(e.row[row].heading, e.row[row].pitch, e.row[row].roll));
     double lowest = INFINITY;
     for (unsigned n = 0; n < 8; n++) {
         double under = kind->tracked ? 0.0 : 0.75 * kind->step_m;
@@ -618,11 +623,11 @@ static void test_it_crosses_a_crater_on_its_springs(void **state)
         for (uint32_t frame = 0; frame < 15 * HZ; frame++) {
             steps_drive(&f, row, 6.0 / steps_kind(&f, kinds[n])->max_speed_mps, 0.0, 0.0);
             deepest = maths_min(deepest, lowest_corner(row));
-            lean = maths_max(lean, fabs(steps_rows(&f).roll[row]));
+            lean = maths_max(lean, fabs(steps_rows(&f).row[row].roll));
         }
         printf("%s: %.0f m on, lowest corner %.3f m, leant %.1f degrees\n", kinds[n],
-               steps_rows(&f).x[row] - 25000.0, deepest, lean * DEG_PER_RAD);
-        assert_true(steps_rows(&f).x[row] > 25045.0); /* across */
+               steps_rows(&f).row[row].x - 25000.0, deepest, lean * DEG_PER_RAD);
+        assert_true(steps_rows(&f).row[row].x > 25045.0); /* across */
         assert_true(deepest > -0.02 && lean > 0.02);
     }
 }
@@ -644,10 +649,10 @@ static void test_it_keeps_its_shell_over_the_ground_on_waves(void **state)
     for (uint32_t frame = 0; frame < 60 * HZ; frame++) {
         steps_drive(&f, row, 1.0, 0.0, 0.0);
         deepest = maths_min(deepest, lowest_corner(row));
-        fastest = maths_max(fastest, fabs(steps_rows(&f).vy[row]));
+        fastest = maths_max(fastest, fabs(steps_rows(&f).row[row].vy));
     }
     printf("jeep on waves: lowest corner %.3f m, vertical speed %.1f m/s\n", deepest, fastest);
-    assert_true(deepest > -0.02 && steps_rows(&f).x[row] > 25900.0);
+    assert_true(deepest > -0.02 && steps_rows(&f).row[row].x > 25900.0);
 }
 
 /* --- frames and threads ------------------------------------------------------------------------*/
@@ -661,11 +666,11 @@ static bool overturns(const char *world, uint32_t hz, const char *kind, double m
     double share = maths_min(1.0, mps / steps_kind(&f, kind)->max_speed_mps);
     steps_kind(&f, kind)->centre_height_m *= 1.3; /* a high load */
     for (uint32_t frame = 0; frame < 6 * hz; frame++) {
-        if (steps_rows(&f).state[row] == ENTITY_WRECK)
+        if (steps_rows(&f).row[row].state == ENTITY_WRECK)
             return true;
         steps_drive(&f, row, share, 1.0, 0.0);
     }
-    return steps_rows(&f).state[row] == ENTITY_WRECK;
+    return steps_rows(&f).row[row].state == ENTITY_WRECK;
 }
 
 static void test_10_and_60_hz_agree_on_what_turns_over(void **state)
@@ -696,8 +701,8 @@ static uint64_t digest_after(uint32_t threads)
                                                                .at = {x, 100.0 + 0.1 * n, z},
                                                                .velocity = {n - 10.0, 0.0, 5.0},
                                                                .behaviour = BEHAVIOUR_DRIVEN});
-        steps_rows(&f).throttle[row] = 0.5f;
-        steps_rows(&f).steer[row] = (float)(n - 12) / 12.0f;
+        steps_rows(&f).row[row].throttle = 0.5f;
+        steps_rows(&f).row[row].steer = (float)(n - 12) / 12.0f;
     }
     fixture_threads(&f, threads);
     fixture_run(&f, 4 * HZ);
@@ -722,16 +727,16 @@ static void test_an_edge_under_a_corner_does_not_lift_it(void **state)
                "    width_m = 10.0; height_m = 0.3; edge_m = 0.05; } );");
         uint32_t row = fixture_put(
             &f, (struct fixture_entity){.kind = "truck", .at = {25000.0, 100.0, 24998.0}});
-        steps_rows(&f).behaviour[row] = BEHAVIOUR_IDLE;
+        steps_rows(&f).row[row].behaviour = BEHAVIOUR_IDLE;
         double high = -INFINITY, low = INFINITY;
         if (b == 1)
-            steps_rows(&f).flags[row] |= ENTITY_FLAG_CHASSIS;
+            steps_rows(&f).row[row].flags |= ENTITY_FLAG_CHASSIS;
         for (uint32_t frame = 0; frame < 20 * HZ; frame++) {
             fixture_run(&f, 1);
             if (frame < 3 * HZ)
                 continue;
-            high = maths_max(high, steps_rows(&f).y[row] - 100.0);
-            low = maths_min(low, steps_rows(&f).y[row] - 100.0);
+            high = maths_max(high, steps_rows(&f).row[row].y - 100.0);
+            low = maths_min(low, steps_rows(&f).row[row].y - 100.0);
         }
         printf("truck beside a bank, %s: %.6f to %.6f m over the ground\n",
                b == 0 ? "from the ground" : "from its springs", low, high);

@@ -45,7 +45,7 @@ static uint32_t put(const char *kind, double x, double z, double height_m, doubl
 static double speed_of(uint32_t row)
 {
     struct entities e = steps_rows(&f);
-    return sqrt(e.vx[row] * e.vx[row] + e.vz[row] * e.vz[row]);
+    return sqrt(e.row[row].vx * e.row[row].vx + e.row[row].vz * e.row[row].vz);
 }
 
 /* --- grip --------------------------------------------------------------------------------------*/
@@ -60,7 +60,7 @@ static void test_wheels_on_two_grounds_turn_a_vehicle_that_brakes(void **state)
     uint32_t row = put("jeep", 24900.0, 25001.0, 0.0, 12.0);
     for (uint32_t frame = 0; frame < HZ; frame++)
         steps_pedals(&f, row, 0.0, 1.0, GEAR_AUTOMATIC);
-    double turned = maths_wrap_half(steps_rows(&f).heading[row] - HALF_PI);
+    double turned = maths_wrap_half(steps_rows(&f).row[row].heading - HALF_PI);
     printf("braking with the right wheels on ice: %.1f degrees, %.1f m/s after 1 s\n",
            turned * DEG_PER_RAD, speed_of(row));
     assert_true(turned < -0.1); /* to the wheels that hold */
@@ -74,7 +74,7 @@ static double stops_in(enum cover cover)
     uint32_t row = put("jeep", 25000.0, 25000.0, 0.0, 15.0);
     for (uint32_t frame = 0; frame < 6 * HZ; frame++)
         steps_pedals(&f, row, 0.0, 1.0, GEAR_AUTOMATIC);
-    return steps_rows(&f).x[row] - 25000.0;
+    return steps_rows(&f).row[row].x - 25000.0;
 }
 
 static void test_brakes_are_as_good_as_the_ground(void **state)
@@ -135,7 +135,8 @@ static void test_the_hand_brake_holds_the_rear_wheels(void **state)
         row = put("jeep", 25000.0, 25000.0, 0.0, 14.0);
         for (uint32_t frame = 0; frame < HZ; frame++)
             steps_drive(&f, row, 0.0, 1.0, hand);
-        turned[hand] = fabs(maths_wrap_half(steps_rows(&f).heading[row] - HALF_PI)) * DEG_PER_RAD;
+        turned[hand] =
+            fabs(maths_wrap_half(steps_rows(&f).row[row].heading - HALF_PI)) * DEG_PER_RAD;
     }
     printf("full wheel at 14 m/s for 1 s: %.0f degrees, with the hand brake %.0f\n", turned[0],
            turned[1]);
@@ -151,10 +152,10 @@ static void test_the_hand_brake_holds_a_vehicle_in_neutral_on_a_slope(void **sta
         steps_plane(&f, 0.15, 0.0);
         uint32_t row = put(kinds[n], 25000.0, 25000.0, 0.0, 0.0);
         steps_pedals(&f, row, 0.0, 0.0, GEAR_NEUTRAL);
-        steps_rows(&f).climb[row] = 1.0f;
+        steps_rows(&f).row[row].climb = 1.0f;
         fixture_run(&f, 5 * HZ);
-        assert_true(speed_of(row) < 0.01 && steps_rows(&f).x[row] > 24999.5);
-        steps_rows(&f).climb[row] = 0.0f;
+        assert_true(speed_of(row) < 0.01 && steps_rows(&f).row[row].x > 24999.5);
+        steps_rows(&f).row[row].climb = 0.0f;
         fixture_run(&f, 5 * HZ);
         assert_true(speed_of(row) > 1.0);
     }
@@ -166,7 +167,7 @@ static void test_the_wheel_takes_half_a_second_to_the_stop(void **state)
     uint32_t row = put("jeep", 25000.0, 25000.0, 0.0, 2.0);
     for (uint32_t frame = 1; frame <= HZ; frame++) {
         steps_drive(&f, row, 2.0 / 29.0, -1.0, 0.0);
-        double wheel = -(double)steps_rows(&f).dodge[row], share = 2.0 * frame / HZ;
+        double wheel = -(double)steps_rows(&f).row[row].dodge, share = 2.0 * frame / HZ;
         assert_true(fabs(wheel - maths_min(1.0, share)) < 1e-5);
     }
 }
@@ -178,7 +179,7 @@ static enum damage falls(const char *world, uint32_t hz, const char *kind, doubl
     reopen(world);
     uint32_t row = put(kind, 25000.0, 25000.0, metres, 0.0);
     fixture_run(&f, 4 * hz);
-    return (enum damage)steps_rows(&f).damage[row];
+    return (enum damage)steps_rows(&f).row[row].damage;
 }
 
 static void test_a_fall_does_damage_by_its_height(void **state)
@@ -219,7 +220,7 @@ static void test_a_bank_harms_as_a_building_does(void **state)
                "    length_m = 20.0; width_m = 20.0; height_m = 2.0; edge_m = 0.25; } );");
         uint32_t row = put(rows[n].kind, 25000.0, 25000.0, 0.0, rows[n].mps);
         fixture_run(&f, 4 * HZ);
-        enum damage damage = (enum damage)steps_rows(&f).damage[row];
+        enum damage damage = (enum damage)steps_rows(&f).row[row].damage;
         uint32_t told = fixture_event_count(&f, EVENT_COLLISION);
         printf("%s into a bank at %.0f m/s: damage %d, told %u times\n", rows[n].kind, rows[n].mps,
                damage, told);
@@ -248,7 +249,7 @@ static void test_a_drop_is_the_same_at_10_and_60_hz(void **state)
             uint32_t row = put(kinds[k], 25000.0, 25000.0, 0.3, 4.0);
             for (uint32_t n = 0; n < 40; n++) {
                 fixture_run(&f, fast ? 6 : 1);
-                height[fast][n] = steps_rows(&f).y[row];
+                height[fast][n] = steps_rows(&f).row[row].y;
             }
         }
         for (uint32_t n = 0; n < 40; n++)
@@ -266,13 +267,13 @@ static void test_what_turns_over_within_a_frame_is_a_wreck(void **state)
     for (uint32_t fast = 0; fast < 2; fast++) {
         reopen(fast ? "" : "world = { hz = 10; };");
         uint32_t row = put("jeep", 25000.0, 25000.0, 20.0, 4.0);
-        steps_rows(&f).spin_x[row] = 10.0 * TWO_PI;
+        steps_rows(&f).row[row].spin_x = 10.0 * TWO_PI;
         fixture_run(&f, fast ? 6 : 1);
         struct entities e = steps_rows(&f);
-        printf("rolled by %.2f at %s Hz: state %d\n", e.roll[row], fast ? "60" : "10",
-               e.state[row]);
-        assert_int_equal(e.state[row], ENTITY_WRECK);
-        assert_int_equal(e.damage[row], DAMAGE_DESTROYED);
+        printf("rolled by %.2f at %s Hz: state %d\n", e.row[row].roll, fast ? "60" : "10",
+               e.row[row].state);
+        assert_int_equal(e.row[row].state, ENTITY_WRECK);
+        assert_int_equal(e.row[row].damage, DAMAGE_DESTROYED);
         assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 1);
     }
 }
@@ -297,11 +298,11 @@ static void test_it_goes_back_to_uneven_ground_while_it_drives_on(void **state)
         steps_ground(&f, edges, NULL);
         uint32_t row = put(kinds[n], 25000.0, 25000.0, 0.0, 12.0), frame = 0;
         struct entities e = steps_rows(&f);
-        e.behaviour[row] = e.order[row] = BEHAVIOUR_PATROL;
-        e.goal_x[row] = 29000.0, e.goal_z[row] = 25000.0;
-        e.throttle[row] = 0.7f;
-        e.flags[row] |= ENTITY_FLAG_CHASSIS;
-        for (; frame < 10 * HZ && e.flags[row] & ENTITY_FLAG_CHASSIS; frame++) {
+        e.row[row].behaviour = e.row[row].order = BEHAVIOUR_PATROL;
+        e.row[row].goal_x = 29000.0, e.row[row].goal_z = 25000.0;
+        e.row[row].throttle = 0.7f;
+        e.row[row].flags |= ENTITY_FLAG_CHASSIS;
+        for (; frame < 10 * HZ && e.row[row].flags & ENTITY_FLAG_CHASSIS; frame++) {
             fixture_run(&f, 1);
             e = steps_rows(&f);
         }
@@ -346,14 +347,14 @@ static uint32_t put_on_side_slope(const char *kind, double mps)
     steps_plane(&f, maths_sin(SIDE_DEG * RAD_PER_DEG) / maths_cos(SIDE_DEG * RAD_PER_DEG), 0.0);
     uint32_t row = put(kind, 25000.0, 25000.0, 0.0, 0.0);
     struct entities e = steps_rows(&f);
-    e.behaviour[row] = e.order[row] = BEHAVIOUR_PATROL;
-    e.goal_x[row] = 29000.0, e.goal_z[row] = 25000.0;
-    e.heading[row] = 0.0;
-    e.roll[row] = -SIDE_DEG * RAD_PER_DEG;
-    e.vx[row] = 0.0, e.vz[row] = -mps;
-    e.throttle[row] = 0.5f, e.steer[row] = 1.0f;
-    e.flags[row] |= ENTITY_FLAG_CHASSIS;
-    e.jolt_tick[row] = (uint32_t)fixture_state(&f).head->tick - 2 * HZ;
+    e.row[row].behaviour = e.row[row].order = BEHAVIOUR_PATROL;
+    e.row[row].goal_x = 29000.0, e.row[row].goal_z = 25000.0;
+    e.row[row].heading = 0.0;
+    e.row[row].roll = -SIDE_DEG * RAD_PER_DEG;
+    e.row[row].vx = 0.0, e.row[row].vz = -mps;
+    e.row[row].throttle = 0.5f, e.row[row].steer = 1.0f;
+    e.row[row].flags |= ENTITY_FLAG_CHASSIS;
+    e.row[row].jolt_tick = (uint32_t)fixture_state(&f).head->tick - 2 * HZ;
     return row;
 }
 
@@ -361,7 +362,7 @@ static uint32_t put_on_side_slope(const char *kind, double mps)
 static double motion_jpkg(const char *name, uint32_t row)
 {
     const struct kind *kind = steps_kind(&f, name);
-    const double speed = speed_of(row), spin = steps_rows(&f).spin_y[row];
+    const double speed = speed_of(row), spin = steps_rows(&f).row[row].spin_y;
     const double square = kind->length_m * kind->length_m + kind->width_m * kind->width_m;
     return 0.5 * speed * speed + spin * spin * square / 24.0;
 }
@@ -376,10 +377,10 @@ static void test_it_gets_no_turn_at_once_where_it_cannot_go_back(void **state)
         uint32_t row = put_on_side_slope(kinds[n], 7.0), sprung = 0;
         double before = motion_jpkg(kinds[n], row), most = 0.0;
         for (uint32_t frame = 0; frame < HZ; frame++) {
-            steps_rows(&f).steer[row] = 1.0f;
+            steps_rows(&f).row[row].steer = 1.0f;
             fixture_run(&f, 1);
             double now = motion_jpkg(kinds[n], row);
-            bool springs = steps_rows(&f).flags[row] & ENTITY_FLAG_CHASSIS;
+            bool springs = steps_rows(&f).row[row].flags & ENTITY_FLAG_CHASSIS;
             sprung += springs;
             most = maths_max(most, springs ? now - before : 0.0);
             before = now;

@@ -36,16 +36,16 @@ static void test_hold_keeps_heading_and_speed_to_the_bit(void **state)
     double heading[3];
     (void)state;
     for (int n = 0; n < 3; n++)
-        heading[n] = steps_rows(&f).heading[rows[n]];
+        heading[n] = steps_rows(&f).row[rows[n]].heading;
     fixture_run(&f, 600);
     struct entities e = steps_rows(&f);
     for (int n = 0; n < 3; n++)
-        assert_true(e.heading[rows[n]] == heading[n]);
-    assert_true(e.vx[tank] == 11.0 && e.vz[tank] == -7.0 && e.vy[tank] == 0.0);
-    assert_true(e.vx[jet] == 200.0 && e.vy[jet] == 3.0 && e.vz[jet] == 40.0);
-    assert_true(e.vx[ship] == -5.0 && e.vz[ship] == 0.0);
-    assert_true(fabs(e.x[tank] - 25110.0) < 1e-8 && fabs(e.z[tank] - 24930.0) < 1e-8);
-    assert_true(fabs(e.x[jet] - 22000.0) < 1e-8 && fabs(e.y[jet] - 930.0) < 1e-8);
+        assert_true(e.row[rows[n]].heading == heading[n]);
+    assert_true(e.row[tank].vx == 11.0 && e.row[tank].vz == -7.0 && e.row[tank].vy == 0.0);
+    assert_true(e.row[jet].vx == 200.0 && e.row[jet].vy == 3.0 && e.row[jet].vz == 40.0);
+    assert_true(e.row[ship].vx == -5.0 && e.row[ship].vz == 0.0);
+    assert_true(fabs(e.row[tank].x - 25110.0) < 1e-8 && fabs(e.row[tank].z - 24930.0) < 1e-8);
+    assert_true(fabs(e.row[jet].x - 22000.0) < 1e-8 && fabs(e.row[jet].y - 930.0) < 1e-8);
 }
 
 static void test_hold_reacts_to_nothing(void **state)
@@ -54,18 +54,18 @@ static void test_hold_reacts_to_nothing(void **state)
     uint32_t enemy = put("tank", 25100.0, 25300.0, 100.0, (struct vec3){0.0, 0.0, 0.0});
     struct entities e = steps_rows(&f);
     (void)state;
-    e.force[row] = FORCE_BLUE;
-    e.force[enemy] = FORCE_RED;
-    e.flags[row] = ENTITY_FLAG_FIRE_AT_WILL;
-    e.threat_slot[row] = enemy;
-    e.threat_id[row] = e.id[enemy];
-    e.bumped[row] = 1;
-    e.fuel_l[row] = 0.0;
+    e.row[row].force = FORCE_BLUE;
+    e.row[enemy].force = FORCE_RED;
+    e.row[row].flags = ENTITY_FLAG_FIRE_AT_WILL;
+    e.row[row].threat_slot = enemy;
+    e.row[row].threat_id = e.row[enemy].id;
+    e.row[row].bumped = 1;
+    e.row[row].fuel_l = 0.0;
     fixture_run(&f, 240);
     e = steps_rows(&f);
-    assert_int_equal(e.behaviour[row], BEHAVIOUR_HOLD);
-    assert_true(e.vx[row] == 10.0 && fabs(e.x[row] - 25040.0) < 1e-8);
-    assert_true(e.threat_id[row] == 0 && e.bumped[row] == 0);
+    assert_int_equal(e.row[row].behaviour, BEHAVIOUR_HOLD);
+    assert_true(e.row[row].vx == 10.0 && fabs(e.row[row].x - 25040.0) < 1e-8);
+    assert_true(e.row[row].threat_id == 0 && e.row[row].bumped == 0);
     assert_int_equal(fixture_event_count(&f, EVENT_NONE), 0);
 }
 
@@ -78,9 +78,9 @@ static void test_hold_follows_the_ground_and_asks_nothing_of_it(void **state)
     for (int frame = 1; frame <= 600; frame++) {
         fixture_run(&f, 1);
         struct entities e = steps_rows(&f);
-        assert_true(e.vx[row] == 10.0);
-        assert_true(e.y[row] == steps_ground_at(&f, e.x[row], e.z[row]));
-        assert_true(fabs(e.vy[row] - 10.0) < 1e-6 && fabs(e.pitch[row] - PI / 4.0) < 1e-6);
+        assert_true(e.row[row].vx == 10.0);
+        assert_true(e.row[row].y == steps_ground_at(&f, e.row[row].x, e.row[row].z));
+        assert_true(fabs(e.row[row].vy - 10.0) < 1e-6 && fabs(e.row[row].pitch - PI / 4.0) < 1e-6);
     }
 }
 
@@ -95,8 +95,8 @@ static void test_hold_leaves_the_world_at_its_edge(void **state)
         double y = n < 2 ? 900.0 : 100.0;
         uint32_t row = put(kinds[n], 40.0, 25000.0, y, (struct vec3){-50.0, 0.0, 0.0});
         uint32_t vehicles = fixture_state(&f).head->vehicles, frames = 0;
-        while (steps_rows(&f).state[row] != ENTITY_FREE && frames++ < 60) {
-            assert_true(steps_rows(&f).vx[row] == -50.0);
+        while (steps_rows(&f).row[row].state != ENTITY_FREE && frames++ < 60) {
+            assert_true(steps_rows(&f).row[row].vx == -50.0);
             fixture_run(&f, 1);
         }
         const struct event *event = fixture_event(&f, EVENT_AGENT, 0);
@@ -116,14 +116,14 @@ static void test_hold_begins_without_a_jump(void **state)
     double jump_m = 0.0, jump_mps = 0.0, jump_rad = 0.0;
     (void)state;
     uint32_t row = put("jeep", 25000.0, 25000.0, 100.25, (struct vec3){12.0, 0.0, 0.0});
-    steps_rows(&f).behaviour[row] = BEHAVIOUR_DRIVEN;
+    steps_rows(&f).row[row].behaviour = BEHAVIOUR_DRIVEN;
     for (uint32_t frame = 0; frame < 8; frame++)
         steps_drive(&f, row, 12.0 / 29.0, 0.5, 0.0);
-    steps_rows(&f).behaviour[row] = steps_rows(&f).order[row] = BEHAVIOUR_HOLD;
+    steps_rows(&f).row[row].behaviour = steps_rows(&f).row[row].order = BEHAVIOUR_HOLD;
     for (uint32_t frame = 0; frame < 1200; frame++) {
         struct entities e = steps_rows(&f);
         const struct vec3 at = entities_position(&e, row), v = entities_velocity(&e, row);
-        double pitch = e.pitch[row], roll = e.roll[row];
+        double pitch = e.row[row].pitch, roll = e.row[row].roll;
         fixture_run(&f, 1);
         e = steps_rows(&f);
         struct vec3 way = vec3_sub(entities_position(&e, row), at),
@@ -132,14 +132,15 @@ static void test_hold_begins_without_a_jump(void **state)
         double off = vec3_length(vec3_sub(way, vec3_scale(vec3_add(v, after), 0.5 / 60.0)));
         jump_m = maths_max(jump_m, off);
         jump_mps = maths_max(jump_mps, faster);
-        jump_rad = maths_max(jump_rad, fabs(e.pitch[row] - pitch) + fabs(e.roll[row] - roll));
+        jump_rad =
+            maths_max(jump_rad, fabs(e.row[row].pitch - pitch) + fabs(e.row[row].roll - roll));
     }
     struct entities e = steps_rows(&f);
     printf("hold after a drop: at most %.4f m, %.2f m/s, %.4f rad in a frame\n", jump_m, jump_mps,
            jump_rad);
     assert_true(jump_m < 0.01 && jump_mps < 1.0 && jump_rad < 0.02);
-    assert_false(e.flags[row] & ENTITY_FLAG_CHASSIS);
-    assert_true(e.y[row] == 100.0 && e.pitch[row] == 0.0 && e.roll[row] == 0.0);
+    assert_false(e.row[row].flags & ENTITY_FLAG_CHASSIS);
+    assert_true(e.row[row].y == 100.0 && e.row[row].pitch == 0.0 && e.row[row].roll == 0.0);
     assert_true(steps_speed(&f, row) > 8.0);
 }
 
@@ -153,20 +154,20 @@ static void test_hold_comes_out_of_the_ground_without_a_jump(void **state)
         f.view.w[buffer].head->crater_count = 1;
     uint32_t row = put("tank", 25000.0, 25000.0, 100.0, (struct vec3){0.0, 0.0, 0.0});
     fixture_run(&f, 150); /* it is calm */
-    const double stands_m = steps_rows(&f).y[row];
+    const double stands_m = steps_rows(&f).row[row].y;
     assert_true(stands_m > 100.1);
-    steps_rows(&f).y[row] -= 0.05;
-    steps_rows(&f).flags[row] |= ENTITY_FLAG_CHASSIS;
+    steps_rows(&f).row[row].y -= 0.05;
+    steps_rows(&f).row[row].flags |= ENTITY_FLAG_CHASSIS;
     double most_m = 0.0, before_m = stands_m - 0.05;
     for (uint32_t frame = 0; frame < 120; frame++) {
         fixture_run(&f, 1);
-        most_m = maths_max(most_m, steps_rows(&f).y[row] - before_m);
-        before_m = steps_rows(&f).y[row];
+        most_m = maths_max(most_m, steps_rows(&f).row[row].y - before_m);
+        before_m = steps_rows(&f).row[row].y;
     }
     printf("at most %.3f mm in a frame\n", 1e3 * most_m);
     assert_true(most_m > 0.0 && most_m < 0.0015);
     assert_true(fabs(before_m - stands_m) < 1e-9);
-    assert_false(steps_rows(&f).flags[row] & ENTITY_FLAG_CHASSIS);
+    assert_false(steps_rows(&f).row[row].flags & ENTITY_FLAG_CHASSIS);
 }
 
 int main(void)

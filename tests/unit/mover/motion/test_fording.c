@@ -64,7 +64,7 @@ static double drives(double z)
                                                            .heading_rad = HALF_PI});
     for (int frame = 0; frame < 60 * HZ; frame++)
         steps_drive(&f, row, 0.5, 0.0, 0.0);
-    return steps_rows(&f).x[row] - 24960.0;
+    return steps_rows(&f).row[row].x - 24960.0;
 }
 
 static void test_a_jeep_crosses_a_shallow_ford_and_stops_at_a_deep_one(void **state)
@@ -87,16 +87,16 @@ static void test_agents_heed_the_depth(void **state)
             fixture_put(&f, (struct fixture_entity){.kind = "jeep",
                                                     .at = {24950.0, FIXTURE_GROUND_M, z[n]},
                                                     .heading_rad = HALF_PI});
-        steps_rows(&f).behaviour[row] = steps_rows(&f).order[row] = BEHAVIOUR_PATROL;
+        steps_rows(&f).row[row].behaviour = steps_rows(&f).row[row].order = BEHAVIOUR_PATROL;
         for (int frame = 0; frame < 20 * HZ; frame++) {
             struct entities e = steps_rows(&f);
-            e.goal_x[row] = 25100.0;
-            e.goal_z[row] = z[n];
+            e.row[row].goal_x = 25100.0;
+            e.row[row].goal_z = z[n];
             fixture_run(&f, 1);
             e = steps_rows(&f);
-            deepest[n] = maths_max(deepest[n],
-                                   terrain_water_depth(&f.view.world.terrain, e.x[row], e.z[row]));
-            farthest[n] = maths_max(farthest[n], e.x[row]);
+            deepest[n] = maths_max(
+                deepest[n], terrain_water_depth(&f.view.world.terrain, e.row[row].x, e.row[row].z));
+            farthest[n] = maths_max(farthest[n], e.row[row].x);
         }
     }
     for (int n = 0; n < 3; n++)

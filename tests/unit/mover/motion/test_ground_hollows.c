@@ -50,7 +50,7 @@ static double shell_depth(uint32_t row)
         cruise_pose_of(&f.view.world, NULL, &e, row, fixture_state(&f).head->tick);
     struct mat3 turn =
         rotation_matrix(rotation_of(pose.heading_rad, pose.pitch_rad, pose.roll_rad));
-    return vehicle_shell_depth(&f.view.world.terrain, NULL, &f.view.world.kinds[e.kind[row]],
+    return vehicle_shell_depth(&f.view.world.terrain, NULL, &f.view.world.kinds[e.row[row].kind],
                                VEHICLE_SHELL_SIDES, pose.at, &turn);
 }
 
@@ -68,20 +68,21 @@ static struct shells_seen cross_valley(const char *kind)
         double heading = 90.0 + 7.5 * n;
         uint32_t row = put(kind, 24960.0 + 2.0 * n, 25000.0 + 60.0 * n, heading, 6.0);
         struct entities e = steps_rows(&f);
-        e.behaviour[row] = BEHAVIOUR_PATROL;
-        e.goal_x[row] = 25060.0 - 4.0 * n;
-        e.goal_z[row] = e.z[row] + (e.goal_x[row] - e.x[row]) * 0.13 * n;
-        const struct rest_pose pose = rest_pose_of(
-            &f.view.world.terrain, NULL, steps_kind(&f, kind), e.x[row], e.z[row], e.heading[row]);
-        e.pitch[row] = pose.pitch_rad;
-        e.roll[row] = pose.roll_rad;
+        e.row[row].behaviour = BEHAVIOUR_PATROL;
+        e.row[row].goal_x = 25060.0 - 4.0 * n;
+        e.row[row].goal_z = e.row[row].z + (e.row[row].goal_x - e.row[row].x) * 0.13 * n;
+        const struct rest_pose pose =
+            rest_pose_of(&f.view.world.terrain, NULL, steps_kind(&f, kind), e.row[row].x,
+                         e.row[row].z, e.row[row].heading);
+        e.row[row].pitch = pose.pitch_rad;
+        e.row[row].roll = pose.roll_rad;
     }
     for (int frame = 0; frame < 12 * (int)HZ; frame++) {
         fixture_run(&f, 1);
         for (uint32_t row = 0; row < 12; row++) {
             struct entities e = steps_rows(&f);
             seen.deepest_m = maths_max(seen.deepest_m, shell_depth(row));
-            seen.sprung += (e.flags[row] & ENTITY_FLAG_CHASSIS) != 0;
+            seen.sprung += (e.row[row].flags & ENTITY_FLAG_CHASSIS) != 0;
             seen.cruising += cruise_goes(&e, row, fixture_state(&f).head->tick);
         }
     }
@@ -133,16 +134,16 @@ static void test_no_shell_turns_into_a_wall(void **state)
     for (int n = 0; n < 12; n++) {
         uint32_t row = put_tank(25006.96 + 0.04 * n, 25130.0 - 20.0 * n, 0.0, 0.0);
         struct entities e = steps_rows(&f);
-        e.behaviour[row] = BEHAVIOUR_PATROL;
-        e.goal_x[row] = 25040.0;
-        e.goal_z[row] = e.z[row];
-        e.roll[row] = -maths_atan2(0.15, 1.0);
+        e.row[row].behaviour = BEHAVIOUR_PATROL;
+        e.row[row].goal_x = 25040.0;
+        e.row[row].goal_z = e.row[row].z;
+        e.row[row].roll = -maths_atan2(0.15, 1.0);
     }
     for (int frame = 0; frame < 6 * (int)HZ; frame++) {
         fixture_run(&f, 1);
         for (uint32_t row = 0; row < 12; row++) {
             deepest = maths_max(deepest, shell_depth(row));
-            sprung += (steps_rows(&f).flags[row] & ENTITY_FLAG_CHASSIS) != 0;
+            sprung += (steps_rows(&f).row[row].flags & ENTITY_FLAG_CHASSIS) != 0;
         }
     }
     print_message("# figures: a shell %.1f mm in a wall, %u looks on springs\n", 1e3 * deepest,
@@ -166,14 +167,14 @@ static void test_no_rim_lifts_it_with_a_jerk(void **state)
         for (int buffer = 0; buffer < 2; buffer++)
             f.view.w[buffer].head->crater_count = (uint32_t)n + 1;
         now.craters[n] = (struct crater){x + 1.5, 24991.0, 2.5f, 0.8f, 1};
-        steps_rows(&f).behaviour[row] = BEHAVIOUR_PATROL;
-        steps_rows(&f).goal_x[row] = x;
-        steps_rows(&f).goal_z[row] = 24800.0;
+        steps_rows(&f).row[row].behaviour = BEHAVIOUR_PATROL;
+        steps_rows(&f).row[row].goal_x = x;
+        steps_rows(&f).row[row].goal_z = 24800.0;
         for (int frame = 0; frame < 2 * (int)HZ && sprung == 0; frame++) {
-            double vy = steps_rows(&f).vy[row];
+            double vy = steps_rows(&f).row[row].vy;
             fixture_run(&f, 1);
-            jerk = maths_max(jerk, fabs(steps_rows(&f).vy[row] - vy));
-            sprung += (steps_rows(&f).flags[row] & ENTITY_FLAG_CHASSIS) != 0;
+            jerk = maths_max(jerk, fabs(steps_rows(&f).row[row].vy - vy));
+            sprung += (steps_rows(&f).row[row].flags & ENTITY_FLAG_CHASSIS) != 0;
         }
         print_message("# figures: %s: %.2f m/s in a frame\n", kinds[n], jerk);
         assert_int_equal(sprung, 1);

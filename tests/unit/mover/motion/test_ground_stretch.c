@@ -38,10 +38,10 @@ static uint32_t put(const char *kind, double x, double speed_mps)
     struct entities e = steps_rows(&f);
     const struct rest_pose pose =
         rest_pose_of(&f.view.world.terrain, NULL, steps_kind(&f, kind), x, 25000.0, 0.0);
-    e.pitch[row] = pose.pitch_rad;
-    e.roll[row] = pose.roll_rad;
-    e.goal_x[row] = x;
-    e.goal_z[row] = 10000.0;
+    e.row[row].pitch = pose.pitch_rad;
+    e.row[row].roll = pose.roll_rad;
+    e.row[row].goal_x = x;
+    e.row[row].goal_z = 10000.0;
     return row;
 }
 
@@ -123,7 +123,7 @@ static void test_a_tank_beside_the_floor_of_a_valley_cruises(void **state)
     steps_ground(&f, valley, NULL);
     uint32_t row = put("tank", 25008.0, 8.0);
     assert_true(run(row, 10 * HZ) > 8 * HZ);
-    assert_false(steps_rows(&f).flags[row] & ENTITY_FLAG_CHASSIS);
+    assert_false(steps_rows(&f).row[row].flags & ENTITY_FLAG_CHASSIS);
 }
 
 static int open_cruising(void **state)

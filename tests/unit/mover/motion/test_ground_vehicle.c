@@ -61,11 +61,12 @@ static void test_row_15_a_plane_gives_pitch_and_roll(void **state)
         uint32_t west = put_tank(25010.0, 24960.0, 270.0, 0.0);
         fixture_run(&f, 1);
         struct entities e = steps_rows(&f);
-        assert_true(near(e.pitch[east], slope, FLOAT_POST) && near(e.roll[east], 0.0, FLOAT_POST));
-        assert_true(near(e.pitch[west], -slope, FLOAT_POST));
+        assert_true(near(e.row[east].pitch, slope, FLOAT_POST) &&
+                    near(e.row[east].roll, 0.0, FLOAT_POST));
+        assert_true(near(e.row[west].pitch, -slope, FLOAT_POST));
         /* Heading north, its right side is uphill: up, so roll, right side down, is negative. */
-        assert_true(near(e.roll[north], -slope, FLOAT_POST));
-        assert_true(near(e.pitch[north], 0.0, FLOAT_POST));
+        assert_true(near(e.row[north].roll, -slope, FLOAT_POST));
+        assert_true(near(e.row[north].pitch, 0.0, FLOAT_POST));
     }
 }
 
@@ -83,9 +84,10 @@ static void test_row_15_it_stays_on_the_ground_in_every_frame(void **state)
     for (int frame = 0; frame < 600; frame++) {
         steps_drive(&f, row, 1.0, frame % 200 < 100 ? 0.3 : -0.3, 0.0);
         struct entities e = steps_rows(&f);
-        assert_true(near(e.y[row], steps_ground_at(&f, e.x[row], e.z[row]), 0.4));
+        assert_true(near(e.row[row].y, steps_ground_at(&f, e.row[row].x, e.row[row].z), 0.4));
     }
-    assert_true(hypot(steps_rows(&f).x[row] - 25000.0, steps_rows(&f).z[row] - 25000.0) > 50.0);
+    assert_true(hypot(steps_rows(&f).row[row].x - 25000.0, steps_rows(&f).row[row].z - 25000.0) >
+                50.0);
 }
 
 /* --- slopes ------------------------------------------------------------------------------------*/
@@ -101,7 +103,7 @@ static double speed_on(double slope_deg)
     steps_drive(&f, row, 1.0, 0.0, 0.0);
     fixture_run(&f, (uint32_t)(30.0 * HZ));
     struct entities e = steps_rows(&f);
-    return hypot(e.vx[row], e.vz[row]);
+    return hypot(e.row[row].vx, e.row[row].vz);
 }
 
 static void test_slopes_limit_speed(void **state)
@@ -135,12 +137,12 @@ static bool springs_on(double slope_deg, double heading_deg)
     steps_plane(&f, maths_sin(slope) / maths_cos(slope), 0.0);
     uint32_t row = put_tank(25010.0, 25010.0, heading_deg, 0.0);
     struct entities e = steps_rows(&f);
-    e.behaviour[row] = e.order[row] = BEHAVIOUR_PATROL;
-    e.goal_x[row] = 25010.0 + 2000.0 * maths_sin(heading);
-    e.goal_z[row] = 25010.0 - 2000.0 * maths_cos(heading);
+    e.row[row].behaviour = e.row[row].order = BEHAVIOUR_PATROL;
+    e.row[row].goal_x = 25010.0 + 2000.0 * maths_sin(heading);
+    e.row[row].goal_z = 25010.0 - 2000.0 * maths_cos(heading);
     for (int frame = 0; frame < 5 * (int)HZ; frame++) {
         fixture_run(&f, 1);
-        springs |= (steps_rows(&f).flags[row] & ENTITY_FLAG_CHASSIS) != 0;
+        springs |= (steps_rows(&f).row[row].flags & ENTITY_FLAG_CHASSIS) != 0;
     }
     assert_true(springs || steps_speed(&f, row) > 0.3);
     return springs;
@@ -169,11 +171,11 @@ static void test_a_vehicle_stops_at_the_foot_of_a_cliff_and_climbs_a_hill(void *
     uint32_t row = put_tank(24970.0, 25010.0, 90.0, 3.0);
     steps_drive(&f, row, 0.2, 0.0, 0.0);
     fixture_run(&f, (uint32_t)(30.0 * HZ));
-    assert_true(steps_rows(&f).x[row] < 25004.0 && steps_rows(&f).x[row] > 24990.0);
+    assert_true(steps_rows(&f).row[row].x < 25004.0 && steps_rows(&f).row[row].x > 24990.0);
     assert_true(steps_speed(&f, row) < 0.02);
     steps_ground(&f, cliff, &gentle);
     fixture_run(&f, (uint32_t)(20.0 * HZ));
-    assert_true(steps_rows(&f).x[row] > 25030.0);
+    assert_true(steps_rows(&f).row[row].x > 25030.0);
 }
 
 /* --- borders -----------------------------------------------------------------------------------*/
@@ -187,11 +189,11 @@ static void test_deep_water_stops_it(void **state)
     for (int frame = 0; frame < (int)(40.0 * HZ); frame++) {
         fixture_run(&f, 1);
         struct entities e = steps_rows(&f);
-        if (e.x[row] > 25072.5) /* it fords no faster */
+        if (e.row[row].x > 25072.5) /* it fords no faster */
             assert_true(steps_speed(&f, row) < 2.0 + SPEED_MPS);
     }
     /* The ground falls by a twentieth. */
-    double bow = steps_rows(&f).x[row] + 0.5 * steps_kind(&f, "tank")->length_m;
+    double bow = steps_rows(&f).row[row].x + 0.5 * steps_kind(&f, "tank")->length_m;
     double deep = 25062.5 + steps_kind(&f, "tank")->ford_m / 0.05;
     assert_true(bow <= deep + 0.02 && bow > deep - 1.5);
     assert_true(steps_speed(&f, row) < 0.5);
@@ -205,20 +207,20 @@ static void test_water_stops_no_vehicle_within_a_frame(void **state)
     steps_cover(&f, COVER_LAKE, 25125.0, 0.0, 50000.0, 50000.0); /* from x = 25062.5 on */
     uint32_t row = put_tank(25058.0, 25010.0, 90.0, 10.0);
     struct entities e = steps_rows(&f);
-    e.behaviour[row] = BEHAVIOUR_PATROL;
-    e.goal_x[row] = 25200.0;
-    e.goal_z[row] = 25010.0;
+    e.row[row].behaviour = BEHAVIOUR_PATROL;
+    e.row[row].goal_x = 25200.0;
+    e.row[row].goal_z = 25010.0;
     for (int frame = 0; frame < 10 * (int)HZ; frame++) {
-        double vx = steps_rows(&f).vx[row], vz = steps_rows(&f).vz[row];
+        double vx = steps_rows(&f).row[row].vx, vz = steps_rows(&f).row[row].vz;
         fixture_run(&f, 1);
         e = steps_rows(&f);
-        most_mps2 = maths_max(most_mps2, HZ * hypot(e.vx[row] - vx, e.vz[row] - vz));
-        farthest = maths_max(farthest, e.x[row]);
+        most_mps2 = maths_max(most_mps2, HZ * hypot(e.row[row].vx - vx, e.row[row].vz - vz));
+        farthest = maths_max(farthest, e.row[row].x);
     }
     double bow = farthest + 0.5 * steps_kind(&f, "tank")->length_m;
     assert_true(most_mps2 < 12.0);
     assert_true(farthest > 25062.5 && bow < 25062.5 + steps_kind(&f, "tank")->ford_m / 0.05);
-    assert_true(steps_rows(&f).x[row] < 25062.5); /* it is out again */
+    assert_true(steps_rows(&f).row[row].x < 25062.5); /* it is out again */
 }
 
 static void test_it_can_back_away_from_the_shore(void **state)
@@ -228,10 +230,10 @@ static void test_it_can_back_away_from_the_shore(void **state)
     uint32_t row = put_tank(25030.0, 25010.0, 90.0, 16.0);
     steps_drive(&f, row, 1.0, 0.0, 0.0);
     fixture_run(&f, (uint32_t)(5.0 * HZ));
-    double stopped = steps_rows(&f).x[row];
+    double stopped = steps_rows(&f).row[row].x;
     steps_drive(&f, row, -1.0, 0.0, 0.0);
     fixture_run(&f, (uint32_t)(8.0 * HZ));
-    assert_true(steps_rows(&f).x[row] < stopped - 10.0);
+    assert_true(steps_rows(&f).row[row].x < stopped - 10.0);
 }
 
 static void test_the_worlds_edge_stops_it(void **state)
@@ -246,8 +248,8 @@ static void test_the_worlds_edge_stops_it(void **state)
         steps_drive(&f, row, 1.0, 0.0, 0.0);
         fixture_run(&f, (uint32_t)(10.0 * HZ));
         struct entities e = steps_rows(&f);
-        assert_in_range((uint64_t)e.x[row], 1, (uint64_t)WORLD_SIDE_DEFAULT_M - 1);
-        assert_in_range((uint64_t)e.z[row], 1, (uint64_t)WORLD_SIDE_DEFAULT_M - 1);
+        assert_in_range((uint64_t)e.row[row].x, 1, (uint64_t)WORLD_SIDE_DEFAULT_M - 1);
+        assert_in_range((uint64_t)e.row[row].z, 1, (uint64_t)WORLD_SIDE_DEFAULT_M - 1);
         assert_true(steps_speed(&f, row) < 0.5);
     }
 }
@@ -264,13 +266,13 @@ static void test_it_gains_speed_at_its_acceleration_and_brakes_as_the_ground_hol
     assert_true(near(steps_speed(&f, row), kind->acceleration_mps2, SPEED_MPS));
     fixture_run(&f, (uint32_t)(30.0 * HZ)); /* the engine's power limits it further on */
     assert_true(near(steps_speed(&f, row), kind->max_speed_mps, SPEED_MPS));
-    double from = steps_rows(&f).x[row];
+    double from = steps_rows(&f).row[row].x;
     double stop_s = kind->max_speed_mps / (0.95 * DIRT * GRAVITY_MPS2);
     steps_pedals(&f, row, 1.0, 1.0, GEAR_AUTOMATIC); /* the brake outdoes the throttle */
     fixture_run(&f, (uint32_t)(stop_s * HZ) + 60);
     assert_true(near(steps_speed(&f, row), 0.0, 0.05));
     /* v squared over 2 a. */
-    assert_true(near(steps_rows(&f).x[row] - from, 0.5 * kind->max_speed_mps * stop_s,
+    assert_true(near(steps_rows(&f).row[row].x - from, 0.5 * kind->max_speed_mps * stop_s,
                      0.1 * kind->max_speed_mps * stop_s));
 }
 
@@ -298,9 +300,9 @@ static void test_reverse_gear_goes_backwards_by_the_throttle(void **state)
     (void)state;
     steps_pedals(&f, row, 1.0, 0.0, GEAR_REVERSE); /* brakes first */
     fixture_run(&f, (uint32_t)HZ);
-    assert_true(near(steps_rows(&f).vx[row], 8.0 - DIRT * GRAVITY_MPS2, 0.3));
+    assert_true(near(steps_rows(&f).row[row].vx, 8.0 - DIRT * GRAVITY_MPS2, 0.3));
     fixture_run(&f, (uint32_t)(8.0 * HZ));
-    assert_true(near(steps_rows(&f).vx[row], -0.4 * full, SPEED_MPS));
+    assert_true(near(steps_rows(&f).row[row].vx, -0.4 * full, SPEED_MPS));
     steps_pedals(&f, row, -1.0, 0.0, GEAR_REVERSE);
     fixture_run(&f, (uint32_t)(8.0 * HZ));
     assert_true(steps_speed(&f, row) == 0.0);
@@ -323,10 +325,10 @@ static void test_in_neutral_it_rolls_and_the_slope_pulls(void **state)
     steps_pedals(&f, held, 0.0, 1.0, GEAR_NEUTRAL);
     fixture_run(&f, (uint32_t)(2.0 * HZ));
     double pull = GRAVITY_MPS2 * (maths_sin(maths_atan2(0.2, 1.0)) - 0.045);
-    assert_true(near(steps_rows(&f).vx[rolls], -pull * (2.0 * HZ + 2.0) / HZ, 0.3));
+    assert_true(near(steps_rows(&f).row[rolls].vx, -pull * (2.0 * HZ + 2.0) / HZ, 0.3));
     assert_true(steps_speed(&f, held) < 0.1);
     fixture_run(&f, (uint32_t)(60.0 * HZ));
-    assert_true(steps_rows(&f).vx[rolls] >= -steps_kind(&f, "tank")->max_speed_mps - SPEED_MPS);
+    assert_true(steps_rows(&f).row[rolls].vx >= -steps_kind(&f, "tank")->max_speed_mps - SPEED_MPS);
 }
 
 static void test_low_gear_is_slow_and_strong(void **state)
@@ -342,7 +344,7 @@ static void test_low_gear_is_slow_and_strong(void **state)
         steps_pedals(&f, row, 1.0, 0.0, GEAR_LOW);
         fixture_run(&f, (uint32_t)(6.0 * HZ));
         struct entities e = steps_rows(&f);
-        double speed = sqrt(e.vx[row] * e.vx[row] + e.vz[row] * e.vz[row]);
+        double speed = sqrt(e.row[row].vx * e.row[row].vx + e.row[row].vz * e.row[row].vz);
         if (slope_deg == 0.0)
             assert_true(near(speed, 0.35 * full, SPEED_MPS));
         else if (slope_deg < 30.0) /* as fast as the power allows */
@@ -359,18 +361,18 @@ static void test_no_control_makes_a_number_that_is_none_or_passes_a_limit(void *
     steps_ground(&f, bumpy, NULL);
     steps_kind(&f, "tank")->resistance_j = 1e12; /* hard landings do not wreck it */
     for (int n = 0; n < 3000; n++) {
-        double before = steps_speed(&f, row), heading = steps_rows(&f).heading[row];
-        struct command command = {.type = COMMAND_DRIVE, .entity = steps_rows(&f).id[row]};
+        double before = steps_speed(&f, row), heading = steps_rows(&f).row[row].heading;
+        struct command command = {.type = COMMAND_DRIVE, .entity = steps_rows(&f).row[row].id};
         for (int v = 0; v < 5; v++)
             command.value[v] = floor(fixture_uniform(&random, -2.0, 3.0)) * 0.5;
         command.value[5] = floor(fixture_uniform(&random, 0.0, 3.0)) * 0.5;
         command.force = (uint16_t)(fixture_random(&random) % GEAR_COUNT);
         assert_int_equal(steps_command(&f, command).result, COMMAND_DONE);
         struct entities e = steps_rows(&f);
-        double level = sqrt(e.vx[row] * e.vx[row] + e.vz[row] * e.vz[row]);
-        assert_true(isfinite(e.x[row]) && isfinite(e.y[row]) && isfinite(e.z[row]));
+        double level = sqrt(e.row[row].vx * e.row[row].vx + e.row[row].vz * e.row[row].vz);
+        assert_true(isfinite(e.row[row].x) && isfinite(e.row[row].y) && isfinite(e.row[row].z));
         assert_true(level <= 1.1 * kind->max_speed_mps && isfinite(before));
-        assert_true(fabs(maths_wrap_half(e.heading[row] - heading)) <=
+        assert_true(fabs(maths_wrap_half(e.row[row].heading - heading)) <=
                     1.5 * kind->turn_rate_rps / HZ);
     }
 }
@@ -382,7 +384,7 @@ static void test_it_reverses_at_two_fifths(void **state)
     steps_drive(&f, row, -1.0, 0.0, 0.0);
     fixture_run(&f, (uint32_t)(8.0 * HZ));
     assert_true(
-        near(steps_rows(&f).vx[row], -0.4 * steps_kind(&f, "tank")->max_speed_mps, SPEED_MPS));
+        near(steps_rows(&f).row[row].vx, -0.4 * steps_kind(&f, "tank")->max_speed_mps, SPEED_MPS));
 }
 
 /* Brakes that work past a standstill would push: 0.6 m/s in a frame of 0.1 s. */
@@ -394,15 +396,15 @@ static void test_an_agent_stops_before_it_backs_off(void **state)
     steps_plane(&f, 0.0, 0.0);
     uint32_t tank = put_tank(25010.0, 25010.0, 90.0, 0.1);
     struct entities e = steps_rows(&f);
-    e.behaviour[tank] = BEHAVIOUR_BACK_OFF;
-    e.until_tick[tank] = 1000;
-    e.bump_heading[tank] = (float)(1.5 * HALF_PI * 2.0);
+    e.row[tank].behaviour = BEHAVIOUR_BACK_OFF;
+    e.row[tank].until_tick = 1000;
+    e.row[tank].bump_heading = (float)(1.5 * HALF_PI * 2.0);
     double least = 0.0;
     for (int frame = 0; frame < 5; frame++) {
-        double before = steps_rows(&f).vx[tank];
+        double before = steps_rows(&f).row[tank].vx;
         fixture_run(&f, 1);
-        least = maths_min(least, steps_rows(&f).vx[tank]);
-        assert_true(before <= 0.0 || steps_rows(&f).vx[tank] >= 0.0);
+        least = maths_min(least, steps_rows(&f).row[tank].vx);
+        assert_true(before <= 0.0 || steps_rows(&f).row[tank].vx >= 0.0);
     }
     assert_true(least < 0.0);
 }
@@ -415,11 +417,12 @@ static void test_it_turns_as_fast_as_the_ground_holds(void **state)
     (void)state;
     steps_drive(&f, rolls, 0.6, 1.0, 0.0);
     steps_drive(&f, stands, 0.0, 1.0, 0.0);
-    double rolling = steps_rows(&f).heading[rolls], standing = steps_rows(&f).heading[stands];
+    double rolling = steps_rows(&f).row[rolls].heading,
+           standing = steps_rows(&f).row[stands].heading;
     fixture_run(&f, (uint32_t)HZ);
     struct entities e = steps_rows(&f);
-    double turning = maths_wrap_half(e.heading[rolls] - rolling);
-    double turned = maths_wrap_half(e.heading[stands] - standing);
+    double turning = maths_wrap_half(e.row[rolls].heading - rolling);
+    double turned = maths_wrap_half(e.row[stands].heading - standing);
     assert_true(turning > 0.2 * rate && turning < DIRT * GRAVITY_MPS2 / 10.0);
     assert_true(turned > 0.1 * rate && turned < rate);
 }
@@ -429,10 +432,10 @@ static void test_a_sideways_slide_is_braked_by_its_tyres(void **state)
     uint32_t row = put_tank(25000.0, 25010.0, 90.0, 0.0);
     struct entities e = steps_rows(&f);
     (void)state;
-    e.vz[row] = 10.0; /* to its right */
+    e.row[row].vz = 10.0; /* to its right */
     steps_drive(&f, row, 0.0, 0.0, 0.0);
     fixture_run(&f, (uint32_t)HZ);
-    assert_true(steps_rows(&f).vz[row] > 1.0);
+    assert_true(steps_rows(&f).row[row].vz > 1.0);
     fixture_run(&f, (uint32_t)(2.0 * HZ));
     assert_true(steps_speed(&f, row) < 0.05);
 }
@@ -446,14 +449,14 @@ static void test_fuel_burns_with_the_throttle_and_an_empty_tank_stops_it(void **
     kind->fuel_l = 1.0;
     kind->fuel_lps = 0.2;
     struct entities e = steps_rows(&f);
-    e.fuel_l[runs] = e.fuel_l[idles] = 1.0;
+    e.row[runs].fuel_l = e.row[idles].fuel_l = 1.0;
     steps_drive(&f, runs, 0.5, 0.0, 0.0);
     steps_drive(&f, idles, 0.0, 0.0, 0.0);
     fixture_run(&f, (uint32_t)(5.0 * HZ));
-    assert_true(near(steps_rows(&f).fuel_l[runs], 0.5, 0.01));
-    assert_true(near(steps_rows(&f).fuel_l[idles], 1.0 - 0.15 * 0.2 * 5.0, 0.001));
+    assert_true(near(steps_rows(&f).row[runs].fuel_l, 0.5, 0.01));
+    assert_true(near(steps_rows(&f).row[idles].fuel_l, 1.0 - 0.15 * 0.2 * 5.0, 0.001));
     fixture_run(&f, (uint32_t)(12.0 * HZ));
-    assert_true(steps_rows(&f).fuel_l[runs] == 0.0 && steps_speed(&f, runs) < 0.05);
+    assert_true(steps_rows(&f).row[runs].fuel_l == 0.0 && steps_speed(&f, runs) < 0.05);
 }
 
 /* Litres an hour that a kind burns while its engine idles, on its wheels and on its springs. */
@@ -464,14 +467,14 @@ static void idle_lph(const char *name, double real_lph)
     uint32_t springs =
         fixture_put(&f, (struct fixture_entity){.kind = name, .at = {25000.0, 100.0, 25900.0}});
     struct entities e = steps_rows(&f);
-    e.behaviour[follows] = e.order[follows] = BEHAVIOUR_FLEE; /* and is in its place */
-    e.goal_x[follows] = e.x[follows], e.goal_z[follows] = e.z[follows];
-    e.until_tick[follows] = UINT32_MAX;
+    e.row[follows].behaviour = e.row[follows].order = BEHAVIOUR_FLEE; /* and is in its place */
+    e.row[follows].goal_x = e.row[follows].x, e.row[follows].goal_z = e.row[follows].z;
+    e.row[follows].until_tick = UINT32_MAX;
     steps_drive(&f, springs, 0.0, 0.0, 0.0);
-    double before[2] = {steps_rows(&f).fuel_l[follows], steps_rows(&f).fuel_l[springs]};
+    double before[2] = {steps_rows(&f).row[follows].fuel_l, steps_rows(&f).row[springs].fuel_l};
     fixture_run(&f, (uint32_t)(4.0 * HZ));
-    double lph[2] = {(before[0] - steps_rows(&f).fuel_l[follows]) * 900.0,
-                     (before[1] - steps_rows(&f).fuel_l[springs]) * 900.0};
+    double lph[2] = {(before[0] - steps_rows(&f).row[follows].fuel_l) * 900.0,
+                     (before[1] - steps_rows(&f).row[springs].fuel_l) * 900.0};
     print_message("acceptance: | %s idles, l/h | %.0f | %.1f |\n", name, real_lph, lph[1]);
     assert_true(near(lph[0], lph[1], 0.05) && near(lph[1], real_lph, 0.1 * real_lph));
     steps_empty(&f);
@@ -497,16 +500,16 @@ static void test_the_engine_is_off_where_a_vehicle_has_the_order_to_stand(void *
     kind->fuel_l = 1.0;
     kind->fuel_lps = 0.2;
     struct entities e = steps_rows(&f);
-    e.fuel_l[parked] = e.fuel_l[flees] = 1.0;
-    e.flags[parked] = e.flags[flees] = ENTITY_FLAG_STAND;
-    e.behaviour[parked] = e.order[parked] = e.order[flees] = BEHAVIOUR_IDLE;
-    e.behaviour[flees] = BEHAVIOUR_FLEE; /* and stands: it is in its place */
-    e.goal_x[flees] = e.x[flees];
-    e.goal_z[flees] = e.z[flees];
-    e.until_tick[flees] = UINT32_MAX;
+    e.row[parked].fuel_l = e.row[flees].fuel_l = 1.0;
+    e.row[parked].flags = e.row[flees].flags = ENTITY_FLAG_STAND;
+    e.row[parked].behaviour = e.row[parked].order = e.row[flees].order = BEHAVIOUR_IDLE;
+    e.row[flees].behaviour = BEHAVIOUR_FLEE; /* and stands: it is in its place */
+    e.row[flees].goal_x = e.row[flees].x;
+    e.row[flees].goal_z = e.row[flees].z;
+    e.row[flees].until_tick = UINT32_MAX;
     fixture_run(&f, (uint32_t)(2.0 * HZ));
-    assert_true(steps_rows(&f).fuel_l[parked] == 1.0);
-    assert_true(steps_rows(&f).fuel_l[flees] < 1.0 - 0.14 * 0.2 * 2.0);
+    assert_true(steps_rows(&f).row[parked].fuel_l == 1.0);
+    assert_true(steps_rows(&f).row[flees].fuel_l < 1.0 - 0.14 * 0.2 * 2.0);
 }
 
 /* --- debris ------------------------------------------------------------------------------------*/
@@ -538,8 +541,8 @@ static void test_debris_slows_vehicles(void **state)
     uint32_t row = put_tank(25040.0, 25010.0, 90.0, full);
     steps_drive(&f, row, 1.0, 0.0, 0.0);
     double slowest = full, before = full;
-    while (steps_rows(&f).x[row] < 25120.0) {
-        double x = steps_rows(&f).x[row];
+    while (steps_rows(&f).row[row].x < 25120.0) {
+        double x = steps_rows(&f).row[row].x;
         fixture_run(&f, 1);
         double speed = steps_speed(&f, row);
         if (fabs(x - 25100.0) < 5.9) /* on it: braked, no harder than it can */
@@ -567,7 +570,7 @@ static void test_debris_keeps_to_its_share(void **state)
     uint32_t row = put_tank(25100.0, 25010.0, 90.0, 0.0);
     steps_drive(&f, row, 1.0, 0.0, 0.0);
     fixture_run(&f, (uint32_t)(2.0 * HZ)); /* a quarter of full speed by then, 4 m on */
-    while (steps_rows(&f).x[row] < 25105.9) {
+    while (steps_rows(&f).row[row].x < 25105.9) {
         fixture_run(&f, 1);
         assert_true(near(steps_speed(&f, row), 0.25 * full, 0.3));
     }

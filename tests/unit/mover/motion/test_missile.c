@@ -37,8 +37,8 @@ static uint32_t put_missile_of(const char *kind, uint32_t target, struct vec3 at
 {
     uint32_t row = put_round(kind, at, velocity);
     struct entities e = steps_rows(&f);
-    e.target_slot[row] = target;
-    e.target_id[row] = target == SLOT_NONE ? 0 : e.id[target];
+    e.row[row].target_slot = target;
+    e.row[row].target_id = target == SLOT_NONE ? 0 : e.row[target].id;
     return row;
 }
 
@@ -57,7 +57,7 @@ static void test_a_missile_reaches_a_crossing_jet(void **state)
             &f, (struct fixture_entity){.kind = "jet",
                                         .at = {25000.0, 800.0, 23000.0},
                                         .velocity = {courses[n][0], 0.0, courses[n][1]}});
-        uint32_t id = steps_rows(&f).id[jet];
+        uint32_t id = steps_rows(&f).row[jet].id;
         put_missile(jet, (struct vec3){25000.0, 150.0, 25000.0}, (struct vec3){0.0, 40.0, -100.0});
         fixture_run(&f, 60 * 19);
         const struct event *event = fixture_event(&f, EVENT_DETONATION, 0);
@@ -84,16 +84,16 @@ static void test_what_leaves_the_seekers_cone_is_lost_for_good(void **state)
             put_missile(jet, (struct vec3){25000.0, 900.0, 25000.0},
                         (struct vec3){100.0 * maths_sin(off), 0.0, -100.0 * maths_cos(off)});
         struct entities e = steps_rows(&f);
-        double heading = e.heading[row];
+        double heading = e.row[row].heading;
         fixture_run(&f, 1);
         e = steps_rows(&f);
-        assert_int_equal(e.target_id[row], out ? 0 : e.id[jet]);
-        assert_true((fabs(maths_wrap_half(e.heading[row] - heading)) < 1e-9) == (out == 1));
+        assert_int_equal(e.row[row].target_id, out ? 0 : e.row[jet].id);
+        assert_true((fabs(maths_wrap_half(e.row[row].heading - heading)) < 1e-9) == (out == 1));
         if (out == 1) { /* it comes into view again: too late */
-            e.x[jet] = e.x[row] + 1000.0 * maths_sin(off);
-            e.z[jet] = e.z[row] - 1000.0 * maths_cos(off);
+            e.row[jet].x = e.row[row].x + 1000.0 * maths_sin(off);
+            e.row[jet].z = e.row[row].z - 1000.0 * maths_cos(off);
             fixture_run(&f, 30);
-            assert_true(fabs(maths_wrap_half(steps_rows(&f).heading[row] - heading)) < 1e-9);
+            assert_true(fabs(maths_wrap_half(steps_rows(&f).row[row].heading - heading)) < 1e-9);
         }
     }
 }
@@ -108,13 +108,13 @@ static double heads_at(struct vec3 at, struct vec3 velocity, double turns_rps, u
     struct entities e = steps_rows(&f);
     entities_set_position(&e, tank, at);
     entities_set_velocity(&e, tank, velocity);
-    e.cruise_tick[tank] = frames > 0 ? (uint32_t)fixture_state(&f).head->tick + frames : 0;
-    e.cruise_rps[tank] = turns_rps;
-    e.heading[tank] = maths_heading(velocity.x, velocity.z);
+    e.row[tank].cruise_tick = frames > 0 ? (uint32_t)fixture_state(&f).head->tick + frames : 0;
+    e.row[tank].cruise_rps = turns_rps;
+    e.row[tank].heading = maths_heading(velocity.x, velocity.z);
     uint32_t row =
         put_missile(tank, (struct vec3){25010.0, 320.0, 24500.0}, (struct vec3){0.0, 0.0, -200.0});
     fixture_run(&f, 1);
-    return steps_rows(&f).heading[row];
+    return steps_rows(&f).row[row].heading;
 }
 
 /* What it flies at moves as it does now, not as at the end of its stretch. */
@@ -166,9 +166,9 @@ static bool hits(const struct situation *situation, uint64_t *random)
                                                  -situation->speed_mps * maths_cos(course)},
                                     .behaviour = situation->behaviour});
     struct entities e = steps_rows(&f);
-    e.until_tick[target] = UINT32_MAX;
-    e.steer[target] = (float)(fixture_random(random) % 2 ? situation->turn : -situation->turn);
-    e.throttle[target] = (float)situation->throttle;
+    e.row[target].until_tick = UINT32_MAX;
+    e.row[target].steer = (float)(fixture_random(random) % 2 ? situation->turn : -situation->turn);
+    e.row[target].throttle = (float)situation->throttle;
     struct vec3 at = {25000.0, FIXTURE_GROUND_M + situation->from_m, 25000.0};
     double full = steps_kind(&f, situation->missile)->max_speed_mps;
     struct vec3 way =
@@ -177,7 +177,7 @@ static bool hits(const struct situation *situation, uint64_t *random)
                  at);
     uint32_t row = put_missile_of(situation->missile, target, at,
                                   vec3_scale(way, 0.4 * full / vec3_length(way)));
-    uint32_t id = steps_rows(&f).id[row];
+    uint32_t id = steps_rows(&f).row[row].id;
     /* Another missile of the same seed draws other numbers. */
     steps_params(&f)->seed = fixture_random(random);
     for (int frame = 0; frame < 60 * 21 && steps_find(&f, id) != SLOT_NONE; frame++)
@@ -264,12 +264,12 @@ static void test_the_motor_burns_and_then_drag_slows_it(void **state)
     (void)state;
     perfect();
     fixture_run(&f, (uint32_t)(60.0 * kind->burn_s) + 1);
-    double full = steps_rows(&f).vx[row];
+    double full = steps_rows(&f).row[row].vx;
     assert_true(fabs(full - kind->max_speed_mps) < 0.01 * kind->max_speed_mps);
     fixture_run(&f, 60 * 10);
     /* 1 / v grows by the drag times the time. */
     double after = 1.0 / (1.0 / full + 1e-4 * 10.0);
-    assert_true(fabs(steps_rows(&f).vx[row] - after) < 2.0);
+    assert_true(fabs(steps_rows(&f).row[row].vx - after) < 2.0);
 }
 
 static void turn_hard(const char *name)
@@ -288,7 +288,7 @@ static void turn_hard(const char *name)
         struct vec3 before = entities_velocity(&e, row);
         fixture_run(&f, 1);
         e = steps_rows(&f);
-        if (e.state[row] == ENTITY_FREE)
+        if (e.row[row].state == ENTITY_FREE)
             break;
         struct vec3 after = entities_velocity(&e, row);
         double speed = vec3_length(after);
@@ -322,14 +322,14 @@ static void test_a_missile_without_a_target_flies_straight(void **state)
                                  (struct vec3){60.0, 80.0, 0.0});
     (void)state;
     perfect();
-    steps_rows(&f).target_id[lost] = 999; /* an id that no row has */
+    steps_rows(&f).row[lost].target_id = 999; /* an id that no row has */
     fixture_run(&f, 120);
     struct entities e = steps_rows(&f);
-    assert_true(fabs(e.x[lost] - 20000.0) < 1e-9 && fabs(e.y[lost] - 800.0) < 1e-9);
-    assert_true(e.z[lost] < 24600.0);
+    assert_true(fabs(e.row[lost].x - 20000.0) < 1e-9 && fabs(e.row[lost].y - 800.0) < 1e-9);
+    assert_true(e.row[lost].z < 24600.0);
     /* On the line through its start, direction (3, 4, 0). */
-    assert_true(fabs((e.x[never] - 22000.0) * 4.0 - (e.y[never] - 800.0) * 3.0) < 1e-6);
-    assert_true(e.y[never] > 1000.0);
+    assert_true(fabs((e.row[never].x - 22000.0) * 4.0 - (e.row[never].y - 800.0) * 3.0) < 1e-6);
+    assert_true(e.row[never].y > 1000.0);
 }
 
 int main(void)

@@ -35,13 +35,13 @@ static void follow_parabola(double hz)
         double t = frame / hz;
         fixture_run(&f, 1);
         struct entities e = steps_rows(&f);
-        assert_true(fabs(e.x[row] - (at.x + v.x * t)) < 1e-7);
-        assert_true(fabs(e.z[row] - (at.z + v.z * t)) < 1e-7);
-        assert_true(fabs(e.y[row] - (at.y + v.y * t - 0.5 * GRAVITY_MPS2 * t * t)) < 1e-7);
-        assert_true(fabs(e.vy[row] - (v.y - GRAVITY_MPS2 * t)) < 1e-9);
-        assert_true(e.vx[row] == v.x && e.vz[row] == v.z);
-        assert_true(fabs(e.pitch[row] - atan2(e.vy[row], hypot(v.x, v.z))) < 1e-12);
-        assert_true(fabs(e.heading[row] - atan2(v.x, -v.z)) < 1e-12);
+        assert_true(fabs(e.row[row].x - (at.x + v.x * t)) < 1e-7);
+        assert_true(fabs(e.row[row].z - (at.z + v.z * t)) < 1e-7);
+        assert_true(fabs(e.row[row].y - (at.y + v.y * t - 0.5 * GRAVITY_MPS2 * t * t)) < 1e-7);
+        assert_true(fabs(e.row[row].vy - (v.y - GRAVITY_MPS2 * t)) < 1e-9);
+        assert_true(e.row[row].vx == v.x && e.row[row].vz == v.z);
+        assert_true(fabs(e.row[row].pitch - atan2(e.row[row].vy, hypot(v.x, v.z))) < 1e-12);
+        assert_true(fabs(e.row[row].heading - atan2(v.x, -v.z)) < 1e-12);
     }
 }
 
@@ -64,10 +64,10 @@ static void test_the_parabola_does_not_depend_on_the_frame_rate(void **state)
 /* Runs until the row has gone far_m from its start or ends. Returns the time [s]. */
 static double fly(uint32_t row, double far_m, struct vec3 *at, struct vec3 *velocity)
 {
-    double start = steps_rows(&f).x[row], hz = 1.0 / world_dt_s(&f.view.world);
+    double start = steps_rows(&f).row[row].x, hz = 1.0 / world_dt_s(&f.view.world);
     for (int frame = 0;; frame++) {
         struct entities e = steps_rows(&f);
-        if (e.state[row] == ENTITY_FREE || e.x[row] - start >= far_m)
+        if (e.row[row].state == ENTITY_FREE || e.row[row].x - start >= far_m)
             return frame / hz;
         *at = entities_position(&e, row), *velocity = entities_velocity(&e, row);
         fixture_run(&f, 1);
@@ -127,9 +127,9 @@ static void test_a_round_ends_in_the_air_when_its_life_is_over(void **state)
     uint32_t frames = (uint32_t)(kind->life_s * 60.0);
     (void)state;
     fixture_run(&f, frames - 1);
-    assert_int_equal(steps_rows(&f).state[row], ENTITY_ACTIVE);
+    assert_int_equal(steps_rows(&f).row[row].state, ENTITY_ACTIVE);
     fixture_run(&f, 1);
-    assert_int_equal(steps_rows(&f).state[row], ENTITY_FREE);
+    assert_int_equal(steps_rows(&f).row[row].state, ENTITY_FREE);
     const struct event *event = fixture_event(&f, EVENT_DETONATION, 0);
     assert_non_null(event);
     assert_int_equal(event->detonation.struck, STRUCK_AIR);

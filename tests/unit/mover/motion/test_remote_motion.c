@@ -72,7 +72,7 @@ static void test_every_model_is_its_formula(void **state)
         uint32_t row = remotes_row(&f, REMOTE);
         struct mat3 first = rotation_matrix(rotation_of(0.5, 0.25, -0.125));
         struct mat3 turn =
-            rotation_matrix(rotation_of(e->heading[row], e->pitch[row], e->roll[row]));
+            rotation_matrix(rotation_of(e->row[row].heading, e->row[row].pitch, e->row[row].roll));
         struct mat3 expected = rotation_both(&since, &first);
         if (vec3_length(vec3_sub(place(), at)) > 1e-3)
             fail_msg("model %u: off by %g m", model, vec3_length(vec3_sub(place(), at)));
@@ -110,7 +110,7 @@ static void test_an_error_vanishes_smoothly(void **state)
     const struct entities *e = &now.entities;
     assert_true(fabs(at.x - (start.x + 3.0 + 40.0 * 0.25)) < 1e-4);
     assert_true(fabs(at.y - (start.y - 1.0 + 3.0 * 0.25)) < 1e-4);
-    assert_true(fabs(e->heading[record.slot] - 0.75) < 1e-3);
+    assert_true(fabs(e->row[record.slot].heading - 0.75) < 1e-3);
     fixture_run(&f, 15); /* and the correction has ended */
     assert_true(fabs(place().x - (start.x + 3.0 + 40.0 * 0.5)) < 1e-4);
 }

@@ -34,11 +34,11 @@ static void test_a_row_becomes_a_body_and_back(void **state)
                                                            .at = {25000.0, 130.0, 25000.0},
                                                            .velocity = {5.0, 1.0, -2.0}});
     struct entities e = steps_rows(&f);
-    e.heading[row] = 2.0;
-    e.pitch[row] = 0.3;
-    e.roll[row] = 2.5;
-    e.spin_x[row] = 1.0;
-    e.spin_z[row] = -2.0;
+    e.row[row].heading = 2.0;
+    e.row[row].pitch = 0.3;
+    e.row[row].roll = 2.5;
+    e.row[row].spin_x = 1.0;
+    e.row[row].spin_z = -2.0;
     steps_serial_context(&f, &context, &serial);
     const struct rigid_body body = rigid_body_take(&context, row);
     /* The centre is 1 m along the body's up axis; spin moves it. */
@@ -48,10 +48,10 @@ static void test_a_row_becomes_a_body_and_back(void **state)
     assert_true(fabs(vec3_dot(by_spin, arm)) < 1e-9 && vec3_length(by_spin) > 0.5);
     rigid_body_put(&context, row, &body);
     const struct entities *m = context.m;
-    assert_true(fabs(m->x[row] - 25000.0) < 1e-9 && fabs(m->y[row] - 130.0) < 1e-9);
-    assert_true(fabs(m->vx[row] - 5.0) < 1e-9 && fabs(m->vy[row] - 1.0) < 1e-9);
-    assert_true(fabs(m->heading[row] - 2.0) < 1e-9 && fabs(m->pitch[row] - 0.3) < 1e-9);
-    assert_true(fabs(m->roll[row] - 2.5) < 1e-9 && m->spin_z[row] == -2.0);
+    assert_true(fabs(m->row[row].x - 25000.0) < 1e-9 && fabs(m->row[row].y - 130.0) < 1e-9);
+    assert_true(fabs(m->row[row].vx - 5.0) < 1e-9 && fabs(m->row[row].vy - 1.0) < 1e-9);
+    assert_true(fabs(m->row[row].heading - 2.0) < 1e-9 && fabs(m->row[row].pitch - 0.3) < 1e-9);
+    assert_true(fabs(m->row[row].roll - 2.5) < 1e-9 && m->row[row].spin_z == -2.0);
     fixture_close(&f);
 }
 
@@ -69,7 +69,8 @@ static void test_the_edge_of_the_world_stops_a_body(void **state)
     struct rigid_body body = rigid_body_take(&context, row);
     body.centre.x = -3.0;
     rigid_body_put(&context, row, &body);
-    assert_true(context.m->x[row] == 0.0 && context.m->vx[row] == 0.0 && context.m->vz[row] == 4.0);
+    assert_true(context.m->row[row].x == 0.0 && context.m->row[row].vx == 0.0 &&
+                context.m->row[row].vz == 4.0);
     fixture_close(&f);
 }
 

@@ -25,7 +25,7 @@ static int open_world(void **state)
 static bool on_water(uint32_t row)
 {
     struct entities e = steps_rows(&f);
-    return cover_is_water(terrain_cover(&f.view.world.terrain, e.x[row], e.z[row]));
+    return cover_is_water(terrain_cover(&f.view.world.terrain, e.row[row].x, e.row[row].z));
 }
 
 static uint32_t put_ship(double x, double z, double speed_mps)
@@ -43,13 +43,14 @@ static void test_patrolling_ships_never_leave_the_water(void **state)
     for (uint32_t n = 0; n < 8; n++) {
         row[n] = put_ship(23000.0 + 600.0 * n, 22200.0 + 700.0 * n, 5.0);
         struct entities e = steps_rows(&f);
-        e.behaviour[row[n]] = e.order[row[n]] = BEHAVIOUR_PATROL; /* the whole world, mostly land */
+        e.row[row[n]].behaviour = e.row[row[n]].order =
+            BEHAVIOUR_PATROL; /* the whole world, mostly land */
     }
     for (int frame = 0; frame < (int)(600.0 * HZ); frame++) {
         fixture_run(&f, 1);
         for (uint32_t n = 0; n < 8; n++) {
             assert_true(on_water(row[n]));
-            assert_true(steps_rows(&f).y[row[n]] == FIXTURE_GROUND_M);
+            assert_true(steps_rows(&f).row[row[n]].y == FIXTURE_GROUND_M);
         }
     }
 }
@@ -67,7 +68,7 @@ static void test_the_shore_stops_a_ship_by_its_bow(void **state)
         assert_true(before - steps_speed(&f, row) <= hardest / HZ);
         before = steps_speed(&f, row);
     }
-    double bow = steps_rows(&f).x[row] + 0.5 * steps_kind(&f, "ship")->length_m;
+    double bow = steps_rows(&f).row[row].x + 0.5 * steps_kind(&f, "ship")->length_m;
     assert_true(bow > shore + 10.0 && bow < shore + 15.0);
     assert_true(on_water(row));
     assert_true(steps_speed(&f, row) == 0.0);
@@ -82,8 +83,8 @@ static void test_a_ship_that_is_aground_goes_astern(void **state)
     assert_true(steps_speed(&f, row) == 0.0);
     steps_pedals(&f, row, 1.0, 0.0, GEAR_REVERSE);
     fixture_run(&f, (uint32_t)(60.0 * HZ));
-    double bow = steps_rows(&f).x[row] + 0.5 * steps_kind(&f, "ship")->length_m;
-    assert_true(bow < 28000.0 && steps_rows(&f).vx[row] < -5.0);
+    double bow = steps_rows(&f).row[row].x + 0.5 * steps_kind(&f, "ship")->length_m;
+    assert_true(bow < 28000.0 && steps_rows(&f).row[row].vx < -5.0);
 }
 
 /* --- aground -----------------------------------------------------------------------------------*/
@@ -92,7 +93,7 @@ static void test_a_ship_that_is_aground_goes_astern(void **state)
 
 static bool aground(uint32_t row)
 {
-    return (steps_rows(&f).flags[row] & ENTITY_FLAG_AGROUND) != 0;
+    return (steps_rows(&f).row[row].flags & ENTITY_FLAG_AGROUND) != 0;
 }
 
 /* Lets a ship of this speed hold its course into the shore. Returns how far its bow slides up. */
@@ -107,7 +108,7 @@ static double run_ashore(double speed_mps, uint32_t *row)
         assert_true(before - steps_speed(&f, *row) <= hardest / HZ);
         before = steps_speed(&f, *row);
     }
-    return steps_rows(&f).x[*row] + 0.5 * steps_kind(&f, "ship")->length_m - SHORE_M;
+    return steps_rows(&f).row[*row].x + 0.5 * steps_kind(&f, "ship")->length_m - SHORE_M;
 }
 
 static void test_a_ship_on_hold_runs_aground(void **state)
@@ -126,8 +127,8 @@ static void test_a_ship_on_hold_runs_aground(void **state)
         double up_m = run_ashore(run[n].speed_mps, &row);
         double way_m = run[n].speed_mps * run[n].speed_mps / (1.4 * GRAVITY_MPS2);
         print_message("| aground with %4.1f m/s: slides up %4.1f m, damage %d |\n",
-                      run[n].speed_mps, up_m, steps_rows(&f).damage[row]);
-        assert_int_equal(steps_rows(&f).damage[row], run[n].damage);
+                      run[n].speed_mps, up_m, steps_rows(&f).row[row].damage);
+        assert_int_equal(steps_rows(&f).row[row].damage, run[n].damage);
         assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 1);
         const struct event_collision *told = &fixture_event(&f, EVENT_COLLISION, 0)->collision;
         assert_true(told->a.id == row + 1 && told->b.kind == KIND_NONE && told->b.fixed == 1);
@@ -153,14 +154,14 @@ static void test_a_ship_backs_off_if_it_can(void **state)
         steps_empty(&f);
         uint32_t row = put_ship(SHORE_M + ashore_m[n] - half, 25010.0, 0.0);
         steps_drive(&f, row, 1.0, 0.5, 0.0); /* ahead it gets nowhere, and does not turn */
-        double heading = steps_rows(&f).heading[row];
+        double heading = steps_rows(&f).row[row].heading;
         fixture_run(&f, (uint32_t)(20.0 * HZ));
         assert_true(steps_speed(&f, row) == 0.0 && aground(row));
-        assert_true(steps_rows(&f).heading[row] == heading);
+        assert_true(steps_rows(&f).row[row].heading == heading);
         steps_pedals(&f, row, 1.0, 0.0, GEAR_REVERSE);
         fixture_run(&f, (uint32_t)(60.0 * HZ));
         assert_true(aground(row) == (n == 1));
-        assert_true(n == 1 ? steps_speed(&f, row) == 0.0 : steps_rows(&f).vx[row] < -3.0);
+        assert_true(n == 1 ? steps_speed(&f, row) == 0.0 : steps_rows(&f).row[row].vx < -3.0);
     }
 }
 
@@ -174,18 +175,18 @@ static void test_ships_of_agents_sail_around_a_headland(void **state)
     for (uint32_t n = 0; n < 3; n++) {
         row[n] = put_ship(23000.0, 23000.0 + 2000.0 * n, 10.0);
         struct entities e = steps_rows(&f);
-        e.behaviour[row[n]] = e.order[row[n]] = BEHAVIOUR_PATROL;
+        e.row[row[n]].behaviour = e.row[row[n]].order = BEHAVIOUR_PATROL;
     }
     for (int frame = 0; frame < (int)(1500.0 * HZ) && there < 3; frame++) {
         struct entities e = steps_rows(&f);
         for (uint32_t n = 0; n < 3; n++)
-            e.goal_x[row[n]] = 27000.0, e.goal_z[row[n]] = 25000.0 + 700.0 * n;
+            e.row[row[n]].goal_x = 27000.0, e.row[row[n]].goal_z = 25000.0 + 700.0 * n;
         fixture_run(&f, 1);
         e = steps_rows(&f);
         for (uint32_t n = 0; n < 3; n++) {
             assert_false(aground(row[n]));
-            there += !arrived[n] && e.x[row[n]] > 26900.0;
-            arrived[n] |= e.x[row[n]] > 26900.0;
+            there += !arrived[n] && e.row[row[n]].x > 26900.0;
+            arrived[n] |= e.row[row[n]].x > 26900.0;
         }
     }
     assert_int_equal(there, 3);
@@ -196,13 +197,13 @@ static void test_a_ship_of_an_agent_that_is_aground_backs_off(void **state)
     uint32_t row = put_ship(SHORE_M - 10.0, 25010.0, 0.0);
     struct entities e = steps_rows(&f);
     (void)state;
-    e.behaviour[row] = e.order[row] = BEHAVIOUR_PATROL;
-    e.goal_x[row] = 26000.0, e.goal_z[row] = 25010.0;
+    e.row[row].behaviour = e.row[row].order = BEHAVIOUR_PATROL;
+    e.row[row].goal_x = 26000.0, e.row[row].goal_z = 25010.0;
     fixture_run(&f, 2);
     assert_true(aground(row));
     fixture_run(&f, (uint32_t)(300.0 * HZ));
     assert_false(aground(row));
-    assert_true(steps_rows(&f).x[row] < SHORE_M - 100.0);
+    assert_true(steps_rows(&f).row[row].x < SHORE_M - 100.0);
 }
 
 static void tell(const char *what, double low, double high, double ours)
@@ -222,7 +223,7 @@ static void test_a_ship_lies_level_and_is_slow_to_gain_speed(void **state)
     assert_true(gained < 10.0 * kind->acceleration_mps2 && gained > 9.0 * kind->acceleration_mps2);
     fixture_run(&f, (uint32_t)(160.0 * HZ));
     assert_true(fabs(steps_speed(&f, row) - kind->max_speed_mps) < 0.1);
-    assert_true(steps_rows(&f).pitch[row] == 0.0 && steps_rows(&f).roll[row] == 0.0);
+    assert_true(steps_rows(&f).row[row].pitch == 0.0 && steps_rows(&f).row[row].roll == 0.0);
 }
 
 static void test_the_rudder_bites_with_the_ships_way(void **state)
@@ -233,12 +234,12 @@ static void test_the_rudder_bites_with_the_ships_way(void **state)
     (void)state;
     steps_drive(&f, fast, 1.0, 1.0, 0.0);
     steps_drive(&f, still, 0.0, 1.0, 0.0);
-    double before[2] = {steps_rows(&f).heading[fast], steps_rows(&f).heading[still]};
+    double before[2] = {steps_rows(&f).row[fast].heading, steps_rows(&f).row[still].heading};
     fixture_run(&f, (uint32_t)(5.0 * HZ));
-    double turned = maths_wrap_half(steps_rows(&f).heading[fast] - before[0]);
+    double turned = maths_wrap_half(steps_rows(&f).row[fast].heading - before[0]);
     assert_true(turned > 2.0 * rate && turned < 3.5 * rate); /* the rudder takes 4 s */
-    assert_true(steps_rows(&f).roll[fast] < -0.03 && steps_rows(&f).roll[fast] > -0.08);
-    turned = maths_wrap_half(steps_rows(&f).heading[still] - before[1]);
+    assert_true(steps_rows(&f).row[fast].roll < -0.03 && steps_rows(&f).row[fast].roll > -0.08);
+    turned = maths_wrap_half(steps_rows(&f).row[still].heading - before[1]);
     assert_true(turned > 0.0 && turned < 1.0 * rate);
 }
 
@@ -255,12 +256,12 @@ static void circle(double rate, double *diameter, double *advance, double *lost)
     double length = steps_kind(&f, "ship")->length_m;
     uint32_t row = put_ship(23000.0, 25010.0, full);
     steps_drive(&f, row, 1.0, 1.0, 0.0);
-    while (fabs(maths_wrap_half(steps_rows(&f).heading[row] - PI)) > 0.02)
+    while (fabs(maths_wrap_half(steps_rows(&f).row[row].heading - PI)) > 0.02)
         fixture_run(&f, 1);
-    *advance = (steps_rows(&f).x[row] - 23000.0) / length;
-    while (fabs(maths_wrap_half(steps_rows(&f).heading[row] - 1.5 * PI)) > 0.02)
+    *advance = (steps_rows(&f).row[row].x - 23000.0) / length;
+    while (fabs(maths_wrap_half(steps_rows(&f).row[row].heading - 1.5 * PI)) > 0.02)
         fixture_run(&f, 1);
-    *diameter = (steps_rows(&f).z[row] - 25010.0) / length;
+    *diameter = (steps_rows(&f).row[row].z - 25010.0) / length;
     fixture_run(&f, (uint32_t)(20.0 * rate));
     *lost = 100.0 * (1.0 - steps_speed(&f, row) / full);
 }
@@ -285,7 +286,7 @@ static void test_it_stops_within_five_lengths(void **state)
     steps_pedals(&f, row, 0.0, 1.0, GEAR_AUTOMATIC);
     fixture_run(&f, (uint32_t)(60.0 * HZ));
     assert_true(steps_speed(&f, row) == 0.0);
-    tell("crash stop, lengths", 2.0, 5.0, (steps_rows(&f).x[row] - 23000.0) / kind->length_m);
+    tell("crash stop, lengths", 2.0, 5.0, (steps_rows(&f).row[row].x - 23000.0) / kind->length_m);
 }
 
 static void test_a_ship_runs_on_and_goes_astern(void **state)
@@ -299,8 +300,8 @@ static void test_a_ship_runs_on_and_goes_astern(void **state)
     assert_true(steps_speed(&f, drifts) > 5.0 && steps_speed(&f, drifts) < 8.0);
     fixture_run(&f, (uint32_t)(100.0 * HZ));
     tell("way in 2 minutes without engines, lengths", 7.0, 20.0,
-         (steps_rows(&f).x[drifts] - 23000.0) / kind->length_m);
-    assert_true(fabs(steps_rows(&f).vx[back] + 0.5 * kind->max_speed_mps) < 0.05);
+         (steps_rows(&f).row[drifts].x - 23000.0) / kind->length_m);
+    assert_true(fabs(steps_rows(&f).row[back].vx + 0.5 * kind->max_speed_mps) < 0.05);
 }
 
 static void test_an_agent_steers_without_swinging(void **state)
@@ -308,15 +309,15 @@ static void test_an_agent_steers_without_swinging(void **state)
     (void)state;
     uint32_t row = put_ship(23000.0, 25010.0, 10.0);
     struct entities e = steps_rows(&f);
-    e.behaviour[row] = e.order[row] = BEHAVIOUR_PATROL;
+    e.row[row].behaviour = e.row[row].order = BEHAVIOUR_PATROL;
     double beyond = 0.0;
     for (int frame = 0; frame < (int)(120.0 * HZ); frame++) {
         e = steps_rows(&f);
-        e.goal_x[row] = 26500.0, e.goal_z[row] = 27900.0;
+        e.row[row].goal_x = 26500.0, e.row[row].goal_z = 27900.0;
         fixture_run(&f, 1);
         e = steps_rows(&f);
-        double to = maths_heading(26500.0 - e.x[row], 27900.0 - e.z[row]);
-        beyond = maths_max(beyond, maths_wrap_half(e.heading[row] - to));
+        double to = maths_heading(26500.0 - e.row[row].x, 27900.0 - e.row[row].z);
+        beyond = maths_max(beyond, maths_wrap_half(e.row[row].heading - to));
     }
     assert_true(beyond < 0.06);
 }

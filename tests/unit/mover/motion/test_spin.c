@@ -35,15 +35,15 @@ static uint32_t put(const char *kind, double y, enum behaviour behaviour, struct
 static void set_spin(uint32_t row, double x, double y, double z)
 {
     struct entities e = steps_rows(&f);
-    e.spin_x[row] = x;
-    e.spin_y[row] = y;
-    e.spin_z[row] = z;
+    e.row[row].spin_x = x;
+    e.row[row].spin_y = y;
+    e.row[row].spin_z = z;
 }
 
 static double spin_of(uint32_t row)
 {
     struct entities e = steps_rows(&f);
-    return vec3_length((struct vec3){e.spin_x[row], e.spin_y[row], e.spin_z[row]});
+    return vec3_length((struct vec3){e.row[row].spin_x, e.row[row].spin_y, e.row[row].spin_z});
 }
 
 static double tyre_brake(const char *kind)
@@ -64,16 +64,16 @@ static void test_a_positive_spin_lowers_the_heading_and_the_tyres_end_it(void **
         uint32_t row = put("tank", 100.0, BEHAVIOUR_HOLD, (struct vec3){0.0, 0.0, 0.0});
         set_spin(row, 0.0, sign * 0.9, 0.0);
         fixture_run(&f, 1);
-        assert_true(fabs(steps_rows(&f).heading[row] - (1.0 - sign * 0.9 / HZ)) < 1e-12);
-        assert_true(fabs(sign * steps_rows(&f).spin_y[row] - (0.9 - brake / HZ)) < 1e-12);
+        assert_true(fabs(steps_rows(&f).row[row].heading - (1.0 - sign * 0.9 / HZ)) < 1e-12);
+        assert_true(fabs(sign * steps_rows(&f).row[row].spin_y - (0.9 - brake / HZ)) < 1e-12);
         fixture_run(&f, (uint32_t)(0.9 / brake * HZ) + 1);
-        assert_true(steps_rows(&f).spin_y[row] == 0.0);
+        assert_true(steps_rows(&f).row[row].spin_y == 0.0);
         /* w squared over 2 a, within a frame's turn. */
-        double turned = sign * (1.0 - steps_rows(&f).heading[row]);
+        double turned = sign * (1.0 - steps_rows(&f).row[row].heading);
         assert_true(fabs(turned - 0.9 * 0.9 / (2.0 * brake)) < 0.9 / HZ);
-        double heading = steps_rows(&f).heading[row];
+        double heading = steps_rows(&f).row[row].heading;
         fixture_run(&f, 30);
-        assert_true(steps_rows(&f).heading[row] == heading);
+        assert_true(steps_rows(&f).row[row].heading == heading);
     }
 }
 
@@ -84,8 +84,8 @@ static void test_what_holds_its_course_does_not_tumble(void **state)
     set_spin(tank, 3.0, 0.0, -2.0);
     fixture_run(&f, 1);
     struct entities e = steps_rows(&f);
-    assert_true(spin_of(tank) == 0.0 && e.heading[tank] == 1.0);
-    assert_true(e.pitch[tank] == 0.0 && e.roll[tank] == 0.0 && e.y[tank] == 100.0);
+    assert_true(spin_of(tank) == 0.0 && e.row[tank].heading == 1.0);
+    assert_true(e.row[tank].pitch == 0.0 && e.row[tank].roll == 0.0 && e.row[tank].y == 100.0);
 }
 
 static void test_water_brakes_a_turn_more_softly(void **state)
@@ -95,15 +95,15 @@ static void test_water_brakes_a_turn_more_softly(void **state)
     steps_cover(&f, COVER_LAKE, 29000.0, 0.0, 50000.0, 50000.0);
     uint32_t tank = put("tank", 100.0, BEHAVIOUR_DRIVEN, (struct vec3){0.0, 0.0, 0.0});
     uint32_t ship = put("ship", 100.0, BEHAVIOUR_DRIVEN, (struct vec3){0.0, 0.0, 0.0});
-    steps_rows(&f).x[ship] = 40000.0;
+    steps_rows(&f).row[ship].x = 40000.0;
     set_spin(tank, 0.0, 0.5, 0.0);
     set_spin(ship, 0.0, 0.5, 0.0);
     fixture_run(&f, 6);
     assert_true(spin_of(ship) > spin_of(tank) && spin_of(ship) < 0.5);
     fixture_run(&f, 60);
     assert_true(spin_of(ship) == 0.0);
-    assert_true(steps_rows(&f).heading[ship] < steps_rows(&f).heading[tank]);
-    assert_true(steps_rows(&f).pitch[ship] == 0.0 && steps_rows(&f).roll[ship] == 0.0);
+    assert_true(steps_rows(&f).row[ship].heading < steps_rows(&f).row[tank].heading);
+    assert_true(steps_rows(&f).row[ship].pitch == 0.0 && steps_rows(&f).row[ship].roll == 0.0);
 }
 
 /* --- in the air --------------------------------------------------------------------------------*/
@@ -112,10 +112,11 @@ static void test_water_brakes_a_turn_more_softly(void **state)
 static struct vec3 momentum_of(uint32_t row)
 {
     struct entities e = steps_rows(&f);
-    const struct mass_properties inertia = mass_properties_of(&f.view.world.kinds[e.kind[row]]);
-    struct mat3 turn = rotation_matrix(rotation_of(e.heading[row], e.pitch[row], e.roll[row]));
-    struct vec3 spin =
-        rotation_back(&turn, (struct vec3){e.spin_x[row], e.spin_y[row], e.spin_z[row]});
+    const struct mass_properties inertia = mass_properties_of(&f.view.world.kinds[e.row[row].kind]);
+    struct mat3 turn =
+        rotation_matrix(rotation_of(e.row[row].heading, e.row[row].pitch, e.row[row].roll));
+    struct vec3 spin = rotation_back(
+        &turn, (struct vec3){e.row[row].spin_x, e.row[row].spin_y, e.row[row].spin_z});
     return rotation_apply(&turn, (struct vec3){inertia.moment.x * spin.x, inertia.moment.y * spin.y,
                                                inertia.moment.z * spin.z});
 }
@@ -134,9 +135,9 @@ static void test_a_body_on_hold_keeps_its_momentum_and_energy(void **state)
         e = steps_rows(&f);
         struct vec3 off = vec3_sub(momentum_of(row), momentum);
         assert_true(vec3_length(off) < 1e-9 * vec3_length(momentum));
-        spin = (struct vec3){e.spin_x[row], e.spin_y[row], e.spin_z[row]};
+        spin = (struct vec3){e.row[row].spin_x, e.row[row].spin_y, e.row[row].spin_z};
         assert_true(fabs(vec3_dot(momentum_of(row), spin) - energy) < 1e-9 * energy);
-        assert_true(e.vx[row] == 120.0 && e.vy[row] == 2.0 && e.vz[row] == -40.0);
+        assert_true(e.row[row].vx == 120.0 && e.row[row].vy == 2.0 && e.row[row].vz == -40.0);
         struct vec3 way = vec3_scale((struct vec3){120.0, 2.0, -40.0}, frame / HZ);
         off = vec3_sub(entities_position(&e, row), vec3_add(from, way));
         assert_true(vec3_length(off) < 1e-8);
@@ -149,13 +150,13 @@ static void test_spin_in_the_air_turns_by_its_rate(void **state)
     uint32_t row = put("jet", 900.0, BEHAVIOUR_HOLD, (struct vec3){0.0, 0.0, 0.0});
     set_spin(row, 0.0, -0.8, 0.0);
     fixture_run(&f, 60);
-    assert_true(fabs(steps_rows(&f).heading[row] - 1.8) < 1e-9);
-    assert_true(steps_rows(&f).x[row] == 25000.0);
+    assert_true(fabs(steps_rows(&f).row[row].heading - 1.8) < 1e-9);
+    assert_true(steps_rows(&f).row[row].x == 25000.0);
     /* About its own nose: it rolls, right side down. */
     set_spin(row, 0.5 * maths_sin(1.8), 0.0, -0.5 * maths_cos(1.8));
     fixture_run(&f, 60);
-    assert_true(fabs(steps_rows(&f).roll[row] - 0.5) < 1e-9);
-    assert_true(fabs(steps_rows(&f).heading[row] - 1.8) < 1e-9);
+    assert_true(fabs(steps_rows(&f).row[row].roll - 0.5) < 1e-9);
+    assert_true(fabs(steps_rows(&f).row[row].heading - 1.8) < 1e-9);
 }
 
 static void test_a_pilot_gets_his_aircraft_out_of_a_spin(void **state)
@@ -167,12 +168,12 @@ static void test_a_pilot_gets_his_aircraft_out_of_a_spin(void **state)
     fixture_run(&f, 1);
     /* Less what its axes take over as they turn. */
     assert_true(fabs(spin_of(row) - (before - PILOT / HZ)) < 0.01);
-    assert_true(fabs(steps_rows(&f).heading[row] - 1.0) > 0.01);
+    assert_true(fabs(steps_rows(&f).row[row].heading - 1.0) > 0.01);
     fixture_run(&f, (uint32_t)(2.0 * before / PILOT * HZ) + 1);
     assert_true(spin_of(row) == 0.0);
     fixture_run(&f, 600);
     struct entities e = steps_rows(&f);
-    assert_true(fabs(e.roll[row]) < 0.1 && fabs(e.pitch[row]) < 0.3);
+    assert_true(fabs(e.row[row].roll) < 0.1 && fabs(e.row[row].pitch) < 0.3);
 }
 
 /* He leans and turns the aircraft under its spin. That adds no energy of rotation. */
@@ -185,7 +186,7 @@ static void test_steering_adds_no_energy_to_a_spin(void **state)
     for (int frame = 0; frame < 120; frame++) {
         steps_drive(&f, row, 1.0, frame < 60 ? 1.0 : -1.0, 0.0);
         struct entities e = steps_rows(&f);
-        struct vec3 spin = {e.spin_x[row], e.spin_y[row], e.spin_z[row]};
+        struct vec3 spin = {e.row[row].spin_x, e.row[row].spin_y, e.row[row].spin_z};
         double energy = vec3_dot(momentum_of(row), spin);
         assert_true(energy < last);
         last = energy;

@@ -22,7 +22,7 @@ static bool met[ROWS_MAX];
 static int open_table(void **state)
 {
     (void)state;
-    memory = aligned_alloc(COLUMN_ALIGN, entities_bytes(ROWS_MAX));
+    memory = aligned_alloc(TABLE_ALIGN, entities_bytes(ROWS_MAX));
     assert_non_null(memory);
     memset(memory, 0, entities_bytes(ROWS_MAX));
     entities_bind(&rows, ROWS_MAX, memory);
@@ -39,12 +39,12 @@ static int close_table(void **state)
 
 static void put(uint32_t row, double x, double z, enum force force)
 {
-    rows.x[row] = x;
-    rows.z[row] = z;
-    rows.id[row] = row + 1;
-    rows.force[row] = (uint8_t)force;
-    rows.state[row] = ENTITY_ACTIVE;
-    rows.behaviour[row] = BEHAVIOUR_PATROL;
+    rows.row[row].x = x;
+    rows.row[row].z = z;
+    rows.row[row].id = row + 1;
+    rows.row[row].force = (uint8_t)force;
+    rows.row[row].state = ENTITY_ACTIVE;
+    rows.row[row].behaviour = BEHAVIOUR_PATROL;
 }
 
 /* Everybody of all sorts, some of them where squares and the world end. */
@@ -56,11 +56,11 @@ static void scatter(uint64_t *random, uint32_t count, double side_m)
             x = 781.25 * (double)(fixture_random(random) % 65);
         put(i, x, i % 11 == 0 ? WORLD_SIDE_DEFAULT_M : z, (enum force)(fixture_random(random) % 3));
         uint64_t sort = fixture_random(random) % 8;
-        rows.state[i] = (uint8_t)(sort == 0   ? ENTITY_FREE
-                                  : sort == 1 ? ENTITY_WRECK
-                                              : ENTITY_ACTIVE);
+        rows.row[i].state = (uint8_t)(sort == 0   ? ENTITY_FREE
+                                      : sort == 1 ? ENTITY_WRECK
+                                                  : ENTITY_ACTIVE);
         if (sort == 2)
-            rows.behaviour[i] = BEHAVIOUR_FLIGHT;
+            rows.row[i].behaviour = BEHAVIOUR_FLIGHT;
     }
 }
 
@@ -82,13 +82,13 @@ static void build(uint32_t count, uint32_t tick, uint32_t think, struct thread_p
 
 static bool belongs(uint32_t i, uint32_t layers, double x, double z, double radius)
 {
-    double dx = (double)(float)rows.x[i] - x, dz = (double)(float)rows.z[i] - z;
-    if (rows.state[i] == ENTITY_FREE || rows.behaviour[i] == BEHAVIOUR_FLIGHT ||
+    double dx = (double)(float)rows.row[i].x - x, dz = (double)(float)rows.row[i].z - z;
+    if (rows.row[i].state == ENTITY_FREE || rows.row[i].behaviour == BEHAVIOUR_FLIGHT ||
         dx * dx + dz * dz > radius * radius)
         return false;
-    return rows.state[i] == ENTITY_WRECK
+    return rows.row[i].state == ENTITY_WRECK
                ? (layers & NEIGHBOUR_INDEX_LAYER(NEIGHBOUR_INDEX_WRECKS)) != 0
-               : (layers >> rows.force[i] & 1u) != 0;
+               : (layers >> rows.row[i].force & 1u) != 0;
 }
 
 static void agrees(uint32_t count, uint32_t layers, double x, double z, double radius)
@@ -176,7 +176,8 @@ static void test_those_are_due_whose_turn_it_is(void **state)
             if (neighbours.key[i] == NEIGHBOUR_INDEX_NO_KEY)
                 continue;
             assert_int_equal(neighbour_index_due(&neighbours, neighbours.place[i]),
-                             rows.state[i] == ENTITY_ACTIVE && (tick + rows.id[i]) % think == 0);
+                             rows.row[i].state == ENTITY_ACTIVE &&
+                                 (tick + rows.row[i].id) % think == 0);
         }
     }
 }
@@ -192,17 +193,17 @@ static void change(uint64_t *random, uint32_t i, double side_m)
             (enum force)(fixture_random(random) % 3));
         break;
     case 1:
-        rows.state[i] = ENTITY_FREE;
+        rows.row[i].state = ENTITY_FREE;
         break;
     case 2:
-        rows.state[i] = rows.state[i] == ENTITY_FREE ? ENTITY_FREE : ENTITY_WRECK;
+        rows.row[i].state = rows.row[i].state == ENTITY_FREE ? ENTITY_FREE : ENTITY_WRECK;
         break;
     default:
-        rows.x[i] =
-            maths_clamp(rows.x[i] + fixture_uniform(random, -9.0, 9.0), 0.0, WORLD_SIDE_DEFAULT_M);
-        rows.z[i] =
-            maths_clamp(rows.z[i] + fixture_uniform(random, -9.0, 9.0), 0.0, WORLD_SIDE_DEFAULT_M);
-        rows.vx[i] = fixture_uniform(random, -9.0, 9.0);
+        rows.row[i].x = maths_clamp(rows.row[i].x + fixture_uniform(random, -9.0, 9.0), 0.0,
+                                    WORLD_SIDE_DEFAULT_M);
+        rows.row[i].z = maths_clamp(rows.row[i].z + fixture_uniform(random, -9.0, 9.0), 0.0,
+                                    WORLD_SIDE_DEFAULT_M);
+        rows.row[i].vx = fixture_uniform(random, -9.0, 9.0);
         break;
     }
 }
@@ -255,7 +256,7 @@ static void test_an_index_that_is_kept_is_one_that_is_built(void **state)
         double side_m = trial % 2 ? WORLD_SIDE_DEFAULT_M : 2000.0;
         uint32_t used = 3000 + (uint32_t)(fixture_random(&random) % 1000), most = 1u << trial;
         memset(resting, 0, sizeof resting);
-        memset(rows.state, 0, ROWS_MAX);
+        memset(rows.row, 0, ROWS_MAX * sizeof *rows.row);
         scatter(&random, used, side_m);
         build(used, 0, 5, NULL);
         for (uint32_t tick = 1; tick < 12; tick++) {
@@ -274,7 +275,7 @@ static void test_an_index_that_is_kept_is_one_that_is_built(void **state)
             used += (uint32_t)(fixture_random(&random) % 3);
             used -= (uint32_t)(fixture_random(&random) % 3);
             for (uint32_t i = used; i < ROWS_MAX; i++)
-                rows.state[i] = ENTITY_FREE;
+                rows.row[i].state = ENTITY_FREE;
             struct neighbour_index_frame frame = frame_of(used, tick, 5);
             frame.resting = resting;
             neighbour_index_update(&neighbours, &frame, tick % 2 ? workers : NULL);

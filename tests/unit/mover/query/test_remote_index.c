@@ -15,19 +15,16 @@
 #define ROWS       96u
 #define IDENTITIES 40u
 
-static uint8_t behaviour[ROWS];
-static uint64_t driver[ROWS];
-static struct entities rows;
+static struct entity row_of[ROWS];
+static struct entities rows = {ROWS, row_of};
 static struct remote_index remotes;
 
 static int open_index(void **state)
 {
     (void)state;
-    rows.behaviour = behaviour;
-    rows.driver = driver;
     for (uint32_t i = 0; i < ROWS; i++) {
-        behaviour[i] = BEHAVIOUR_IDLE;
-        driver[i] = 0;
+        row_of[i].behaviour = BEHAVIOUR_IDLE;
+        row_of[i].driver = 0;
     }
     return remote_index_init(&remotes, ROWS, IDENTITIES);
 }
@@ -47,7 +44,7 @@ static uint32_t search(uint64_t remote, uint32_t *count)
         if (!remote_is(&rows, row))
             continue;
         ++*count;
-        if (driver[row] == remote && found == SLOT_NONE)
+        if (row_of[row].driver == remote && found == SLOT_NONE)
             found = row;
     }
     return found;
@@ -65,9 +62,9 @@ static void compare(void)
 static void change(uint32_t row, uint8_t into, uint64_t remote)
 {
     if (remote_is(&rows, row))
-        remote_index_remove(&remotes, row, driver[row]);
-    behaviour[row] = into;
-    driver[row] = remote;
+        remote_index_remove(&remotes, row, row_of[row].driver);
+    row_of[row].behaviour = into;
+    row_of[row].driver = remote;
     if (remote_is(&rows, row))
         remote_index_add(&remotes, row, remote);
 }
@@ -95,8 +92,8 @@ static void test_others_change_rows_before_it_is_made(void **state)
     (void)state;
     compare();
     remote_index_forget(&remotes);
-    behaviour[5] = BEHAVIOUR_REMOTE;
-    driver[5] = 3;
+    row_of[5].behaviour = BEHAVIOUR_REMOTE;
+    row_of[5].driver = 3;
     remote_index_add(&remotes, 5, 3); /* it is not made, and counts the row once */
     compare();
     assert_int_equal(remote_index_find(&remotes, &rows, ROWS, 3), 5);

@@ -33,8 +33,8 @@ static enum command_result fire(uint32_t shooter, uint32_t target)
         steps_aim(&f, shooter, target);
     return (enum command_result)steps_command(
                &f, (struct command){.type = COMMAND_FIRE,
-                                    .entity = e.id[shooter],
-                                    .target = target == SLOT_NONE ? 0 : e.id[target]})
+                                    .entity = e.row[shooter].id,
+                                    .target = target == SLOT_NONE ? 0 : e.row[target].id})
         .result;
 }
 
@@ -91,7 +91,7 @@ static void check_dispersion(double speed_mps, double error_rad)
         assert_true(fire_shoot(&context, shooter, SLOT_NONE, KIND_NONE));
         const struct entities *m = &f.view.m.entities;
         uint32_t row = (uint32_t)(1 + n);
-        double angle[2] = {maths_wrap_half(m->heading[row]), m->pitch[row]};
+        double angle[2] = {maths_wrap_half(m->row[row].heading), m->row[row].pitch};
         for (int i = 0; i < 2; i++) {
             sum[i] += angle[i];
             square[i] += angle[i] * angle[i];
@@ -125,17 +125,17 @@ static void test_a_round_starts_clear_of_its_shooter(void **state)
     uint32_t round = 2;
     const struct kind *heat = steps_kind(&f, "heat"); /* a jeep has thin armour */
     double reach = steps_kind(&f, "tank")->radius_m + heat->radius_m;
-    assert_int_equal(e.behaviour[round], BEHAVIOUR_FLIGHT);
+    assert_int_equal(e.row[round].behaviour, BEHAVIOUR_FLIGHT);
     assert_true(vec3_length(vec3_sub(entities_position(&e, round),
                                      entities_position(&e, shooter))) > reach);
     assert_true(fabs(steps_speed(&f, round) - heat->max_speed_mps) < 1e-6);
-    assert_int_equal(e.kind[round], fixture_kind(&f, "heat"));
-    assert_int_equal(e.owner_id[round], e.id[shooter]);
-    assert_int_equal(e.target_id[round], e.id[target]);
-    assert_int_equal(event->fire.shooter.id, e.id[shooter]);
-    assert_int_equal(event->fire.target.id, e.id[target]);
-    assert_int_equal(event->fire.munition.id, e.id[round]);
-    assert_true(event->fire.point[2] == e.z[round]);
+    assert_int_equal(e.row[round].kind, fixture_kind(&f, "heat"));
+    assert_int_equal(e.row[round].owner_id, e.row[shooter].id);
+    assert_int_equal(e.row[round].target_id, e.row[target].id);
+    assert_int_equal(event->fire.shooter.id, e.row[shooter].id);
+    assert_int_equal(event->fire.target.id, e.row[target].id);
+    assert_int_equal(event->fire.munition.id, e.row[round].id);
+    assert_true(event->fire.point[2] == e.row[round].z);
     assert_int_equal(fixture_state(&f).head->tally.fires, 1);
 }
 
@@ -143,11 +143,11 @@ static void test_without_a_target_it_fires_ahead(void **state)
 {
     uint32_t shooter = put("tank", 25000.0, 25000.0, (struct vec3){0.0, 0.0, 0.0});
     (void)state;
-    steps_rows(&f).heading[shooter] = 2.0;
+    steps_rows(&f).row[shooter].heading = 2.0;
     steps_kind(&f, "shell")->dispersion_rad = 0.0;
     assert_int_equal(fire(shooter, SLOT_NONE), COMMAND_DONE);
-    assert_true(fabs(steps_rows(&f).heading[1] - 2.0) < 1e-12);
-    assert_true(fabs(steps_rows(&f).pitch[1]) < 1e-12);
+    assert_true(fabs(steps_rows(&f).row[1].heading - 2.0) < 1e-12);
+    assert_true(fabs(steps_rows(&f).row[1].pitch) < 1e-12);
 }
 
 /* --- supply ------------------------------------------------------------------------------------*/
@@ -157,14 +157,14 @@ static void test_reloading_takes_its_time_and_rounds_run_out(void **state)
     uint32_t shooter = put("tank", 25000.0, 25000.0, (struct vec3){0.0, 0.0, 0.0});
     uint32_t reload = (uint32_t)(steps_kind(&f, "tank")->reload_s * 60.0);
     (void)state;
-    steps_rows(&f).rounds[shooter] = 2;
+    steps_rows(&f).row[shooter].rounds = 2;
     assert_int_equal(fire(shooter, SLOT_NONE), COMMAND_DONE);
-    assert_int_equal(steps_rows(&f).rounds[shooter], 1);
+    assert_int_equal(steps_rows(&f).row[shooter].rounds, 1);
     assert_int_equal(fire(shooter, SLOT_NONE), COMMAND_CANNOT);
     fixture_run(&f, reload - 3); /* two frames of it went by with the commands */
     assert_int_equal(fire(shooter, SLOT_NONE), COMMAND_CANNOT);
     assert_int_equal(fire(shooter, SLOT_NONE), COMMAND_DONE);
-    assert_int_equal(steps_rows(&f).rounds[shooter], 0);
+    assert_int_equal(steps_rows(&f).row[shooter].rounds, 0);
     fixture_run(&f, reload);
     assert_int_equal(fire(shooter, SLOT_NONE), COMMAND_CANNOT);
     assert_int_equal(fixture_state(&f).head->tally.fires, 2);
@@ -175,7 +175,7 @@ static void test_a_wreck_and_the_unarmed_cannot_fire(void **state)
     uint32_t truck = put("truck", 25000.0, 25000.0, (struct vec3){0.0, 0.0, 0.0});
     uint32_t wreck = put("tank", 25100.0, 25000.0, (struct vec3){0.0, 0.0, 0.0});
     (void)state;
-    steps_rows(&f).state[wreck] = ENTITY_WRECK;
+    steps_rows(&f).row[wreck].state = ENTITY_WRECK;
     assert_int_equal(fire(truck, SLOT_NONE), COMMAND_CANNOT);
     assert_int_equal(fire(wreck, SLOT_NONE), COMMAND_CANNOT);
     assert_int_equal(fixture_state(&f).head->munitions, 0);

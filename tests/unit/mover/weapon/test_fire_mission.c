@@ -91,7 +91,7 @@ static void test_probable_errors_of_200_rounds(void **state)
         reopen("world = { seed = 1; capacity = 2048; };");
         uint32_t gun = put("howitzer", 15000.0, 25000.0, FORCE_BLUE);
         steps_kind(&f, "howitzer")->rounds = 1000;
-        steps_rows(&f).rounds[gun] = 1000;
+        steps_rows(&f).row[gun].rounds = 1000;
         steps_serial_context(&f, &step, &context);
         struct vec3 muzzle = {15000.0, GROUND_M, 25000.0}, point = {25000.0, GROUND_M, 25000.0};
         uint16_t munition = fixture_kind(&f, "artillery");
@@ -114,7 +114,7 @@ static void test_a_gun_fires_four_a_minute_for_three_minutes_and_then_one(void *
 {
     uint32_t gun = put("howitzer", 15000.0, 25000.0, FORCE_BLUE), counts[7] = {0};
     (void)state;
-    steps_rows(&f).gun[gun] = 0.3f;
+    steps_rows(&f).row[gun].gun = 0.3f;
     assert_true(begin(&(struct fire_mission_order){.x = 25000.0,
                                                    .z = 25000.0,
                                                    .gun = gun,
@@ -136,7 +136,7 @@ static void test_a_gun_fires_four_a_minute_for_three_minutes_and_then_one(void *
                : minute == 6 ? 2
                              : 1,
                counts[minute]);
-    assert_int_equal(steps_rows(&f).rounds[gun], 36 - 16);
+    assert_int_equal(steps_rows(&f).row[gun].rounds, 36 - 16);
     assert_int_equal(fixture_event_count(&f, EVENT_DETONATION), 16);
     assert_int_equal(fixture_state(&f).head->battery[0].phase, BATTERY_DONE);
 }
@@ -213,7 +213,7 @@ static void test_a_shell_from_off_the_map_strikes_at_its_time(void **state)
            "            bearing_deg = 270.0; } );");
     fixture_run(&f, 60 * 17);
     struct entities e = steps_rows(&f);
-    assert_true(e.vx[0] > 200.0 && fabs(e.vz[0]) < 5.0 && e.vy[0] < -80.0);
+    assert_true(e.row[0].vx > 200.0 && fabs(e.row[0].vz) < 5.0 && e.row[0].vy < -80.0);
     fixture_run(&f, 60 * 4);
     const struct event *event = fixture_event(&f, EVENT_DETONATION, 0);
     assert_non_null(event);
@@ -274,7 +274,8 @@ static void test_an_aircraft_releases_its_bomb(void **state)
     steps_serial_context(&f, &step, &context);
     assert_true(fire_shoot_at(&context, jet, 30000.0, 25000.0, fixture_kind(&f, "bomb")));
     struct entities m = f.view.m.entities;
-    assert_true(m.vx[1] == 200.0 && m.vy[1] == 0.0 && m.y[1] < 800.0 && m.x[1] == 25000.0);
+    assert_true(m.row[1].vx == 200.0 && m.row[1].vy == 0.0 && m.row[1].y < 800.0 &&
+                m.row[1].x == 25000.0);
     struct vec3 at = entities_position(&m, 1), velocity = entities_velocity(&m, 1);
     double time = firing_arc_fall(steps_kind(&f, "bomb"), step.wind, GROUND_M, &at, &velocity);
     expect("bomb from 700 m: falls for [s]", 11.7, 12.3, time);

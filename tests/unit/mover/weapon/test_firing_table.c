@@ -56,7 +56,7 @@ static double miss_m(const char *name, double height_m, struct vec3 to)
     for (int frame = 0; frame < 600; frame++) {
         fixture_run(&f, 1);
         struct entities e = steps_rows(&f);
-        if (e.state[row] == ENTITY_FREE)
+        if (e.row[row].state == ENTITY_FREE)
             break;
         struct vec3 now = entities_position(&e, row), way = vec3_sub(now, before);
         double share = vec3_dot(vec3_sub(point, before), way) / vec3_dot(way, way);

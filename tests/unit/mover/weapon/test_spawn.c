@@ -35,20 +35,19 @@ static void test_a_new_row_keeps_nothing_of_the_old_one(void **state)
 {
     struct entities *m = &f.view.m.entities;
     (void)state;
-#define X(type, name) memset(m->name, 0xa5, CAPACITY * sizeof(type));
-    ENTITY_COLUMNS(X)
-#undef X
+    memset(m->row, 0xa5, CAPACITY * sizeof *m->row);
     uint32_t row = spawn("tank");
     const struct kind *kind = steps_kind(&f, "tank");
     assert_int_equal(row, 0);
-    assert_int_equal(m->id[row], 1);
-    assert_int_equal(m->state[row], ENTITY_ACTIVE);
-    assert_int_equal(m->force[row], FORCE_BLUE);
-    assert_int_equal(m->rounds[row], kind->rounds);
-    assert_true(m->fuel_l[row] == kind->fuel_l);
-    assert_true(m->x[row] == 0.0 && m->vx[row] == 0.0 && m->harm_j[row] == 0.0);
-    assert_int_equal(m->target_id[row] | m->owner_id[row] | m->threat_id[row] | m->bumped[row] |
-                         m->trigger[row] | m->flags[row] | m->damage[row],
+    assert_int_equal(m->row[row].id, 1);
+    assert_int_equal(m->row[row].state, ENTITY_ACTIVE);
+    assert_int_equal(m->row[row].force, FORCE_BLUE);
+    assert_int_equal(m->row[row].rounds, kind->rounds);
+    assert_true(m->row[row].fuel_l == kind->fuel_l);
+    assert_true(m->row[row].x == 0.0 && m->row[row].vx == 0.0 && m->row[row].harm_j == 0.0);
+    assert_int_equal(m->row[row].target_id | m->row[row].owner_id | m->row[row].threat_id |
+                         m->row[row].bumped | m->row[row].trigger | m->row[row].flags |
+                         m->row[row].damage,
                      0);
 }
 
@@ -58,8 +57,8 @@ static void test_a_munition_flies_and_has_a_life(void **state)
     const struct state_head *head = f.view.m.head;
     uint32_t row = spawn("missile");
     (void)state;
-    assert_int_equal(m->behaviour[row], BEHAVIOUR_FLIGHT);
-    assert_int_equal(m->until_tick[row], 1 + (uint32_t)(20.0 * 60.0));
+    assert_int_equal(m->row[row].behaviour, BEHAVIOUR_FLIGHT);
+    assert_int_equal(m->row[row].until_tick, 1 + (uint32_t)(20.0 * 60.0));
     assert_int_equal(head->munitions, 1);
     assert_int_equal(head->vehicles, 0);
     spawn_remove(&context, row);
@@ -78,7 +77,7 @@ static void test_a_full_table_refuses_and_counts(void **state)
     assert_int_equal(head->next_id, CAPACITY + 1);
     spawn_remove(&context, 5);
     assert_int_equal(spawn("jeep"), 5);
-    assert_int_equal(f.view.m.entities.id[5], CAPACITY + 1);
+    assert_int_equal(f.view.m.entities.row[5].id, CAPACITY + 1);
 }
 
 static void test_freed_rows_rest_while_there_are_others(void **state)
@@ -136,7 +135,7 @@ static void test_a_row_in_use_holds_the_end_of_the_table(void **state)
     }
     spawn_fall_back(&context);
     assert_int_equal(head->used, MANY - 499);
-    assert_int_equal(f.view.m.entities.state[MANY - 500], ENTITY_ACTIVE);
+    assert_int_equal(f.view.m.entities.row[MANY - 500].state, ENTITY_ACTIVE);
     spawn_remove(&context, MANY - 500);
     spawn_fall_back(&context);
     assert_true(head->used < MANY / 10);
@@ -183,7 +182,7 @@ static void test_random_comings_and_goings_keep_ids_and_counts(void **state)
             rounds -= round_at[at];
         }
         for (uint32_t i = 0; i < head->used; i++)
-            assert_int_equal(m->id[i], id[i]);
+            assert_int_equal(m->row[i].id, id[i]);
         assert_int_equal(head->munitions, rounds);
         assert_int_equal(head->vehicles, live - rounds);
     }

@@ -31,7 +31,7 @@ static void train(uint32_t row, double traverse, double elevate)
 {
     struct event_command answer =
         steps_command(&f, (struct command){.type = COMMAND_DRIVE,
-                                           .entity = steps_rows(&f).id[row],
+                                           .entity = steps_rows(&f).row[row].id,
                                            .value = {0.0, 0.0, 0.0, traverse, elevate}});
     assert_int_equal(answer.result, COMMAND_DONE);
 }
@@ -46,20 +46,20 @@ static void test_the_controls_turn_turret_and_gun_at_their_rates(void **state)
     train(row, 1.0, -0.5);
     fixture_run(&f, 29);
     struct entities e = steps_rows(&f);
-    assert_true(fabs((double)e.turret[row] - 0.5 * kind->turret_rate_rps) < 1e-5);
-    assert_true(
-        fabs((double)e.gun[row] - maths_max(-0.25 * kind->gun_rate_rps, kind->gun_low_rad)) < 1e-5);
+    assert_true(fabs((double)e.row[row].turret - 0.5 * kind->turret_rate_rps) < 1e-5);
+    assert_true(fabs((double)e.row[row].gun -
+                     maths_max(-0.25 * kind->gun_rate_rps, kind->gun_low_rad)) < 1e-5);
     fixture_run(&f, 600); /* around and around; the gun at its stop */
     e = steps_rows(&f);
-    assert_true((double)e.turret[row] >= -PI - 1e-6 && (double)e.turret[row] <= PI + 1e-6);
-    assert_true(fabs((double)e.gun[row] - kind->gun_low_rad) < 1e-6);
-    float stands = e.turret[row];
+    assert_true((double)e.row[row].turret >= -PI - 1e-6 && (double)e.row[row].turret <= PI + 1e-6);
+    assert_true(fabs((double)e.row[row].gun - kind->gun_low_rad) < 1e-6);
+    float stands = e.row[row].turret;
     train(row, 0.0, 0.0);
     fixture_run(&f, 60);
-    assert_true(fabsf(steps_rows(&f).turret[row] - stands) < 0.02f);
-    stands = steps_rows(&f).turret[row];
+    assert_true(fabsf(steps_rows(&f).row[row].turret - stands) < 0.02f);
+    stands = steps_rows(&f).row[row].turret;
     fixture_run(&f, 60); /* let go it stays where it is */
-    assert_true(steps_rows(&f).turret[row] == stands);
+    assert_true(steps_rows(&f).row[row].turret == stands);
 }
 
 static void test_what_has_no_turret_or_gun_turns_none(void **state)
@@ -71,8 +71,8 @@ static void test_what_has_no_turret_or_gun_turns_none(void **state)
     train(truck, 1.0, 1.0);
     fixture_run(&f, 60);
     struct entities e = steps_rows(&f);
-    assert_true(e.turret[jet] == 0.0f && e.gun[jet] == 0.0f);
-    assert_true(e.turret[truck] == 0.0f && e.gun[truck] == 0.0f);
+    assert_true(e.row[jet].turret == 0.0f && e.row[jet].gun == 0.0f);
+    assert_true(e.row[truck].turret == 0.0f && e.row[truck].gun == 0.0f);
 }
 
 static void test_the_gunner_keeps_a_drivers_target_until_a_hand_is_on_the_turret(void **state)
@@ -84,11 +84,11 @@ static void test_the_gunner_keeps_a_drivers_target_until_a_hand_is_on_the_turret
     train(row, 0.0, 0.0);
     assert_int_equal(steps_command(&f, shot).result, COMMAND_CANNOT);
     fixture_run(&f, (uint32_t)(5.0 * HZ));
-    assert_true(fabs(fabs((double)steps_rows(&f).turret[row]) - PI) < 0.01);
+    assert_true(fabs(fabs((double)steps_rows(&f).row[row].turret) - PI) < 0.01);
     assert_int_equal(steps_command(&f, shot).result, COMMAND_DONE);
     train(row, 0.1, 0.0);
     fixture_run(&f, 1);
-    assert_int_equal(steps_rows(&f).target_id[row], 0);
+    assert_int_equal(steps_rows(&f).row[row].target_id, 0);
 }
 
 static void test_fired_without_a_target_a_round_goes_where_the_gun_points(void **state)
@@ -97,15 +97,15 @@ static void test_fired_without_a_target_a_round_goes_where_the_gun_points(void *
     struct entities e = steps_rows(&f);
     (void)state;
     steps_kind(&f, "shell")->dispersion_rad = 0.0;
-    e.heading[row] = 1.0;
-    e.turret[row] = 0.75f;
-    e.gun[row] = 0.125f;
-    e.behaviour[row] = BEHAVIOUR_DRIVEN;
+    e.row[row].heading = 1.0;
+    e.row[row].turret = 0.75f;
+    e.row[row].gun = 0.125f;
+    e.row[row].behaviour = BEHAVIOUR_DRIVEN;
     assert_int_equal(
         steps_command(&f, (struct command){.type = COMMAND_FIRE, .entity = row + 1}).result,
         COMMAND_DONE);
     e = steps_rows(&f);
-    assert_true(fabs(e.heading[1] - 1.75) < 1e-9 && fabs(e.pitch[1] - 0.125) < 1e-9);
+    assert_true(fabs(e.row[1].heading - 1.75) < 1e-9 && fabs(e.row[1].pitch - 0.125) < 1e-9);
 }
 
 /* --- rates and limits, whatever happens --------------------------------------------------------*/
@@ -126,19 +126,19 @@ static void test_no_turret_passes_its_rate_and_no_gun_its_limits(void **state)
         for (uint32_t n = 0; n < 5; n++) {
             if (frame % 50 == 0)
                 steps_target(&f, row[n], target[fixture_random(&random) % 3]);
-            turret[n] = e.turret[row[n]];
-            gun[n] = e.gun[row[n]];
+            turret[n] = e.row[row[n]].turret;
+            gun[n] = e.row[row[n]].gun;
         }
         fixture_run(&f, 1);
         e = steps_rows(&f);
         for (uint32_t n = 0; n < 5; n++) {
             const struct kind *kind = steps_kind(&f, kinds[n]);
-            double turned = maths_wrap_half((double)e.turret[row[n]] - (double)turret[n]);
-            double raised = (double)e.gun[row[n]] - (double)gun[n];
+            double turned = maths_wrap_half((double)e.row[row[n]].turret - (double)turret[n]);
+            double raised = (double)e.row[row[n]].gun - (double)gun[n];
             assert_true(fabs(turned) <= kind->turret_rate_rps / HZ + 1e-6);
             assert_true(fabs(raised) <= kind->gun_rate_rps / HZ + 1e-6);
-            assert_true((double)e.gun[row[n]] >= kind->gun_low_rad - 1e-6 &&
-                        (double)e.gun[row[n]] <= kind->gun_high_rad + 1e-6);
+            assert_true((double)e.row[row[n]].gun >= kind->gun_low_rad - 1e-6 &&
+                        (double)e.row[row[n]].gun <= kind->gun_high_rad + 1e-6);
         }
     }
 }
@@ -148,10 +148,10 @@ static void test_at_rest_it_goes_back_ahead(void **state)
     uint32_t row = put("tank", 25000.0, 25000.0, FORCE_BLUE, BEHAVIOUR_IDLE);
     struct entities e = steps_rows(&f);
     (void)state;
-    e.turret[row] = 1.5f;
-    e.gun[row] = 0.1f;
+    e.row[row].turret = 1.5f;
+    e.row[row].gun = 0.1f;
     fixture_run(&f, (uint32_t)(5.0 * HZ));
-    assert_true(steps_rows(&f).turret[row] == 0.0f && steps_rows(&f).gun[row] == 0.0f);
+    assert_true(steps_rows(&f).row[row].turret == 0.0f && steps_rows(&f).row[row].gun == 0.0f);
 }
 
 /* --- an agent's trigger ------------------------------------------------------------------------*/
@@ -161,8 +161,8 @@ static uint32_t first_shot(uint32_t row, uint32_t target, uint32_t frames)
 {
     steps_target(&f, row, target);
     struct entities e = steps_rows(&f);
-    e.behaviour[row] = BEHAVIOUR_ATTACK;
-    e.until_tick[row] = UINT32_MAX;
+    e.row[row].behaviour = BEHAVIOUR_ATTACK;
+    e.row[row].until_tick = UINT32_MAX;
     for (uint32_t frame = 1; frame <= frames; frame++) {
         fixture_run(&f, 1);
         if (fixture_event_count(&f, EVENT_FIRE) > 0)
@@ -211,9 +211,9 @@ static void test_hold_fire_holds_it(void **state)
     uint32_t row = put("tank", 25000.0, 25000.0, FORCE_BLUE, BEHAVIOUR_IDLE);
     uint32_t target = put("truck", 25000.0, 24300.0, FORCE_RED, BEHAVIOUR_HOLD);
     (void)state;
-    steps_rows(&f).flags[row] |= ENTITY_FLAG_HOLD_FIRE;
+    steps_rows(&f).row[row].flags |= ENTITY_FLAG_HOLD_FIRE;
     assert_int_equal(first_shot(row, target, 200), 0);
-    steps_rows(&f).flags[row] = 0;
+    steps_rows(&f).row[row].flags = 0;
     assert_true(first_shot(row, target, 200) > 0);
 }
 
@@ -225,7 +225,7 @@ static void test_it_does_not_fire_through_a_friend(void **state)
     (void)state;
     steps_kind(&f, "tank")->max_speed_mps = 1e-9;
     assert_int_equal(first_shot(row, target, 200), 0);
-    steps_rows(&f).x[between] = 25010.0; /* beside it */
+    steps_rows(&f).row[between].x = 25010.0; /* beside it */
     assert_true(first_shot(row, target, 200) > 0);
 }
 

@@ -35,7 +35,7 @@ static int make_image(void **state)
         next->head->used = 3;
         next->head->event_end += 2;
         next->head->crater_count++;
-        next->entities.x[i] = 3.25 * i;
+        next->entities.row[i].x = 3.25 * i;
         next->contacts[0] =
             (struct persistent_contact){1, 2, 0, 1, 1, 2, 0, 0, 0.0f, {{0}}, {{{0}, {0}}}};
         next->head->contact_count = 1;

@@ -33,9 +33,9 @@ static void make_frame(void)
     struct state *next = bare_view_begin(&collider);
     next->head->used = 64;
     for (uint32_t i = 0; i < 64; i++) {
-        next->entities.x[i] = 1.0 / (double)(next->head->frame * 64 + i);
-        next->entities.y[i] = next->entities.x[i] * 1.7;
-        next->entities.z[i] = next->entities.x[i] * 3.1;
+        next->entities.row[i].x = 1.0 / (double)(next->head->frame * 64 + i);
+        next->entities.row[i].y = next->entities.row[i].x * 1.7;
+        next->entities.row[i].z = next->entities.row[i].x * 3.1;
     }
     bare_view_end(&collider);
 }

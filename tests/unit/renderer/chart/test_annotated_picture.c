@@ -119,7 +119,7 @@ static void test_instruments_keep_to_their_places(void **context)
         struct tracks tracks;
         struct canvas canvas;
         struct annotated_picture_source source = source_of(stage, &tracks, 7);
-        stage->state.entities.damage[7] = DAMAGE_HIGH;
+        stage->state.entities.row[7].damage = DAMAGE_HIGH;
         open_picture(&picture, stage, sizes[i][0], sizes[i][1]);
         canvas_open(&canvas, sizes[i][0], sizes[i][1]);
         annotated_picture_instruments(&picture, &canvas.image, &source);

@@ -55,7 +55,7 @@ static void check_view(const struct map_stage *stage, const struct map_view *vie
     assert_int_equal(image_init(&image, width, height), 0);
     map_vehicles(&image, view, &stage->frame_view, SLOT_NONE, pixels);
     for (uint32_t i = 0; i < stage->state.head->used; i++) {
-        struct point at = map_point(view, e->x[i], e->z[i]);
+        struct point at = map_point(view, e->row[i].x, e->row[i].z);
         if (!map_contains(view, at, 0.0))
             continue;
         if (!map_stage_shows(stage, &image, view, i))
@@ -67,7 +67,7 @@ static void check_view(const struct map_stage *stage, const struct map_view *vie
             const uint8_t *pixel = pixel_at(&image, x, y);
             bool near = pixel[0] == 0 && pixel[1] == 0 && pixel[2] == 0;
             for (uint32_t i = 0; i < stage->state.head->used && !near; i++) {
-                struct point at = map_point(view, e->x[i], e->z[i]);
+                struct point at = map_point(view, e->row[i].x, e->row[i].z);
                 near = hypot(at.x - x, at.y - y) < REACH;
             }
             assert_true(near);
@@ -183,8 +183,8 @@ static void test_wrecks_burn_and_then_are_crosses(void **context)
     struct entities *e = &stage->state.entities;
     assert_int_equal(image_init(&image, 700, 700), 0);
     for (uint32_t i = 0; i < stage->state.head->used; i++) {
-        e->state[i] = ENTITY_WRECK;
-        e->changed_tick[i] = 0;
+        e->row[i].state = ENTITY_WRECK;
+        e->row[i].changed_tick = 0;
     }
     map_vehicles(&image, &view, &stage->frame_view, SLOT_NONE, 12.0);
     assert_true(count_red_over_blue(&image) > 10 * stage->state.head->used);

@@ -38,36 +38,37 @@ static void test_fields_equal_the_table(void **context)
     struct entities *e = &stage.state.entities;
     for (uint32_t i = 0; i < 500; i++) {
         uint32_t slot = (uint32_t)fixture_uniform(&seed, 0.0, stage.state.head->used);
-        const struct kind *kind = &stage.frame_view.world->kinds[e->kind[slot]];
-        e->vx[slot] = fixture_uniform(&seed, -100.0, 100.0);
-        e->vz[slot] = fixture_uniform(&seed, -100.0, 100.0);
-        e->pitch[slot] = fixture_uniform(&seed, -1.5, 1.5);
-        e->roll[slot] = fixture_uniform(&seed, -1.5, 1.5);
-        e->y[slot] = fixture_uniform(&seed, -10.0, 2000.0);
-        e->rounds[slot] = (uint32_t)fixture_uniform(&seed, 0.0, 60.0);
-        e->fuel_l[slot] = fixture_uniform(&seed, 0.0, kind->fuel_l);
-        e->damage[slot] = (uint8_t)fixture_uniform(&seed, 0.0, DAMAGE_COUNT);
-        e->behaviour[slot] = (uint8_t)fixture_uniform(&seed, 0.0, BEHAVIOUR_COUNT);
+        const struct kind *kind = &stage.frame_view.world->kinds[e->row[slot].kind];
+        e->row[slot].vx = fixture_uniform(&seed, -100.0, 100.0);
+        e->row[slot].vz = fixture_uniform(&seed, -100.0, 100.0);
+        e->row[slot].pitch = fixture_uniform(&seed, -1.5, 1.5);
+        e->row[slot].roll = fixture_uniform(&seed, -1.5, 1.5);
+        e->row[slot].y = fixture_uniform(&seed, -10.0, 2000.0);
+        e->row[slot].rounds = (uint32_t)fixture_uniform(&seed, 0.0, 60.0);
+        e->row[slot].fuel_l = fixture_uniform(&seed, 0.0, kind->fuel_l);
+        e->row[slot].damage = (uint8_t)fixture_uniform(&seed, 0.0, DAMAGE_COUNT);
+        e->row[slot].behaviour = (uint8_t)fixture_uniform(&seed, 0.0, BEHAVIOUR_COUNT);
         stage.state.head->frame = i;
         stage.state.head->tick = i;
         struct statistics s;
         struct statistics_bar_field fields[STATISTICS_BAR_MAX];
         statistics_of(&s, &stage.frame_view, slot);
         uint32_t n = statistics_bar_of(fields, &s, 59.94);
-        double full = kind->fuel_l > 0.0 ? 100.0 * e->fuel_l[slot] / kind->fuel_l : 100.0;
-        double speed = 3.6 * hypot(e->vx[slot], e->vz[slot]), turn = 180.0 / 3.14159265358979;
+        double full = kind->fuel_l > 0.0 ? 100.0 * e->row[slot].fuel_l / kind->fuel_l : 100.0;
+        double speed = 3.6 * hypot(e->row[slot].vx, e->row[slot].vz),
+               turn = 180.0 / 3.14159265358979;
         assert_true(fabs(number(fields, n, "SPEED km/h") - speed) <= 0.0501);
-        assert_true(fabs(remainder(number(fields, n, "HEADING") - e->heading[slot] * turn,
+        assert_true(fabs(remainder(number(fields, n, "HEADING") - e->row[slot].heading * turn,
                                    360.0)) <= 0.0501);
-        assert_true(fabs(number(fields, n, "PITCH") - e->pitch[slot] * turn) <= 0.0501);
-        assert_true(fabs(number(fields, n, "ROLL") - e->roll[slot] * turn) <= 0.0501);
-        assert_true(fabs(number(fields, n, "ALTITUDE m") - e->y[slot]) <= 0.501);
-        assert_true(number(fields, n, "ROUNDS") == e->rounds[slot]);
+        assert_true(fabs(number(fields, n, "PITCH") - e->row[slot].pitch * turn) <= 0.0501);
+        assert_true(fabs(number(fields, n, "ROLL") - e->row[slot].roll * turn) <= 0.0501);
+        assert_true(fabs(number(fields, n, "ALTITUDE m") - e->row[slot].y) <= 0.501);
+        assert_true(number(fields, n, "ROUNDS") == e->row[slot].rounds);
         assert_true(fabs(number(fields, n, "FUEL") - full) <= 0.501);
         assert_string_equal(find(fields, n, "DAMAGE")->value,
-                            damage_name((enum damage)e->damage[slot]));
+                            damage_name((enum damage)e->row[slot].damage));
         assert_string_equal(find(fields, n, "BEHAVIOUR")->value,
-                            behaviour_name((enum behaviour)e->behaviour[slot]));
+                            behaviour_name((enum behaviour)e->row[slot].behaviour));
         assert_true(fabs(number(fields, n, "TIME s") - i * world_dt_s(stage.frame_view.world)) <=
                     0.00501);
         assert_true(number(fields, n, "FRAME") == i);

@@ -135,7 +135,7 @@ static int open_stage(void **context)
 static uint32_t put_tank(struct scene_stage *s, double x, double z, double heading)
 {
     uint32_t slot = scene_stage_put(s, TANK, x, z, heading);
-    s->entities.y[slot] = terrain_base_height(&s->world.terrain, x, z);
+    s->entities.row[slot].y = terrain_base_height(&s->world.terrain, x, z);
     return slot;
 }
 
@@ -270,7 +270,8 @@ static void test_bodies_in_view_are_listed(void **context)
         const struct draw_list_body *body = &s->list.bodies[i];
         if (fabs((double)body->at[2] + 40.0) < 1e-3 && fabs((double)body->at[0]) < 1e-3) {
             tanks++;
-            assert_true(fabs((double)body->forward[0] - sin(s->entities.heading[ahead])) < 1e-6);
+            assert_true(fabs((double)body->forward[0] - sin(s->entities.row[ahead].heading)) <
+                        1e-6);
         }
         assert_true(body->at[2] < 20.0f); /* nothing behind the camera */
     }
@@ -285,10 +286,10 @@ static void test_damage_is_visible_in_steps(void **context)
     float before = -1.0f;
     uint32_t smoke = 0;
     for (uint32_t damage = DAMAGE_NONE; damage < DAMAGE_COUNT; damage++) {
-        s->entities.damage[slot] = (uint8_t)damage;
-        s->entities.state[slot] = damage == DAMAGE_DESTROYED ? ENTITY_WRECK : ENTITY_ACTIVE;
+        s->entities.row[slot].damage = (uint8_t)damage;
+        s->entities.row[slot].state = damage == DAMAGE_DESTROYED ? ENTITY_WRECK : ENTITY_ACTIVE;
         s->head.tick = 500;
-        s->entities.changed_tick[slot] = 300;
+        s->entities.row[slot].changed_tick = 300;
         scene_build(&s->list, &camera, &s->static_scene, &s->frame_view, &s->effects);
         uint32_t at = 0;
         while (at < s->list.body_count && fabs((double)s->list.bodies[at].at[0]) > 1e-3)
@@ -318,9 +319,9 @@ static void test_a_wreck_that_has_broken_up_is_flat(void **context)
     struct scene_stage *s = *context;
     uint32_t slot = put_tank(s, 25010.0, 24940.0, 0.0);
     struct camera camera = look_from(s, 25010.0, 25000.0, 0.0);
-    s->entities.state[slot] = ENTITY_WRECK;
-    s->entities.pitch[slot] = 0.5;
-    s->entities.flags[slot] = ENTITY_FLAG_BROKEN;
+    s->entities.row[slot].state = ENTITY_WRECK;
+    s->entities.row[slot].pitch = 0.5;
+    s->entities.row[slot].flags = ENTITY_FLAG_BROKEN;
     scene_build(&s->list, &camera, &s->static_scene, &s->frame_view, &s->effects);
     uint32_t at = 0;
     while (at < s->list.body_count && fabs((double)s->list.bodies[at].at[0]) > 1e-3)
@@ -337,9 +338,9 @@ static void test_a_near_body_is_drawn_with_its_dents(void **context)
     struct scene_stage *s = *context;
     uint32_t bent = put_tank(s, 25010.0, 24985.0, 0.0);
     uint32_t far = put_tank(s, 25010.0, 24300.0, 0.0);
-    dent(s, s->entities.id[bent], 0.2f);
-    dent(s, s->entities.id[bent], 0.1f);
-    dent(s, s->entities.id[far], 0.3f);
+    dent(s, s->entities.row[bent].id, 0.2f);
+    dent(s, s->entities.row[bent].id, 0.1f);
+    dent(s, s->entities.row[far].id, 0.3f);
     struct camera camera = look_from(s, 25010.0, 25000.0, 0.0);
     scene_build(&s->list, &camera, &s->static_scene, &s->frame_view, &s->effects);
     assert_int_equal(s->list.dent_count, 2); /* the dents of the far body are too small */
@@ -582,13 +583,13 @@ static void test_statistics_equal_the_table(void **context)
     struct scene_stage *s = *context;
     uint32_t slot = put_tank(s, 30000.0, 20000.0, HALF_PI);
     const struct entities *e = &s->entities;
-    e->vx[slot] = 12.5;
-    e->pitch[slot] = 0.1;
-    e->roll[slot] = -0.05;
-    e->rounds[slot] = 37;
-    e->fuel_l[slot] = 820.0;
-    e->damage[slot] = DAMAGE_MED;
-    e->behaviour[slot] = BEHAVIOUR_PATROL;
+    e->row[slot].vx = 12.5;
+    e->row[slot].pitch = 0.1;
+    e->row[slot].roll = -0.05;
+    e->row[slot].rounds = 37;
+    e->row[slot].fuel_l = 820.0;
+    e->row[slot].damage = DAMAGE_MED;
+    e->row[slot].behaviour = BEHAVIOUR_PATROL;
     s->head.frame = 123;
     struct statistics is;
     statistics_of(&is, &s->frame_view, slot);
@@ -597,7 +598,7 @@ static void test_statistics_equal_the_table(void **context)
     assert_true(fabs(is.pitch_deg - 0.1 * DEG_PER_RAD) < 1e-9);
     assert_true(fabs(is.roll_deg + 0.05 * DEG_PER_RAD) < 1e-9);
     assert_true(fabs(is.fuel_share - 0.82) < 1e-12);
-    assert_true(fabs(is.altitude_m - e->y[slot]) < 1e-12);
+    assert_true(fabs(is.altitude_m - e->row[slot].y) < 1e-12);
     assert_int_equal(is.rounds, 37);
     assert_string_equal(is.damage, damage_name(DAMAGE_MED));
     assert_string_equal(is.behaviour, behaviour_name(BEHAVIOUR_PATROL));
@@ -615,7 +616,7 @@ static void test_tracks_remember_positions(void **context)
     uint32_t slot = put_tank(s, 1000.0, 2000.0, 0.0);
     assert_int_equal(tracks_init(&tracks, CAPACITY), 0);
     for (uint32_t i = 0; i < 2 * TRACK_POINTS; i++) {
-        s->entities.x[slot] = 1000.0 + i;
+        s->entities.row[slot].x = 1000.0 + i;
         s->head.tick = i * (uint64_t)(10.0 * TRACK_INTERVAL_S + 1.0);
         tracks_note(&tracks, &s->frame_view);
         tracks_note(&tracks, &s->frame_view); /* too early */
@@ -623,8 +624,8 @@ static void test_tracks_remember_positions(void **context)
     const struct track *track = tracks_of(&tracks, slot, slot + 1);
     assert_non_null(track);
     assert_int_equal(track->count, 2 * TRACK_POINTS);
-    assert_true(fabs((double)track->x[(track->count - 1) % TRACK_POINTS] - s->entities.x[slot]) <
-                1e-3);
+    assert_true(
+        fabs((double)track->x[(track->count - 1) % TRACK_POINTS] - s->entities.row[slot].x) < 1e-3);
     assert_null(tracks_of(&tracks, slot, 99)); /* another entity in the slot has none */
     tracks_free(&tracks);
 }

@@ -86,13 +86,13 @@ static void test_a_body_that_is_thrown(void **state)
     event->detonation.point[1] = 100.0;
     event->detonation.point[2] = MIDDLE;
     event->detonation.explosive_kg = 1.0f;
-    now.entities.vx[tank] = 3.0 * top;
+    now.entities.row[tank].vx = 3.0 * top;
     next();
     next();
     assert_true(measure_good(&check.measures, MEASURE_OF_SPEED));
-    now.entities.vx[tank] = top;
+    now.entities.row[tank].vx = top;
     next();
-    now.entities.vx[tank] = 3.0 * top;
+    now.entities.row[tank].vx = 3.0 * top;
     next();
     is_bad(MEASURE_OF_SPEED, 3.0);
 }
@@ -102,17 +102,17 @@ static void test_the_edge_of_the_world_stops_a_vehicle(void **state)
 {
     uint32_t tank = put("tank", 49996.0, 100.0);
     (void)state;
-    steps_rows(&f).vx[tank] = 5.0;
+    steps_rows(&f).row[tank].vx = 5.0;
     begin();
-    now.entities.vx[tank] = 0.0;
+    now.entities.row[tank].vx = 0.0;
     next();
     is_good();
-    now.entities.x[tank] = 49900.0;
-    now.entities.vx[tank] = 5.0;
+    now.entities.row[tank].x = 49900.0;
+    now.entities.row[tank].vx = 5.0;
     add_event(EVENT_COMMAND)->command.entity = tank + 1;
     next();
     is_good();
-    now.entities.vx[tank] = 0.0;
+    now.entities.row[tank].vx = 0.0;
     next();
     is_bad(MEASURE_OF_ACCELERATION, 300.0 - 5.0 * steps_kind(&f, "tank")->turn_rate_rps);
 }
@@ -121,7 +121,7 @@ static void test_a_body_that_begins_fast(void **state)
 {
     uint32_t tank = put("tank", MIDDLE, 100.0);
     (void)state;
-    steps_rows(&f).vx[tank] = 3.0 * steps_kind(&f, "tank")->max_speed_mps;
+    steps_rows(&f).row[tank].vx = 3.0 * steps_kind(&f, "tank")->max_speed_mps;
     begin();
     next();
     assert_true(measure_good(&check.measures, MEASURE_OF_SPEED));
@@ -133,7 +133,7 @@ static void collide(uint32_t a, uint32_t b, double spin_rps)
     struct event *event = add_event(EVENT_COLLISION);
     event->collision.a.id = a + 1;
     event->collision.b.id = b + 1;
-    now.entities.spin_y[a] = spin_rps;
+    now.entities.row[a].spin_y = spin_rps;
     next();
 }
 
@@ -145,18 +145,18 @@ static void test_a_body_that_a_fast_one_spins_up(void **state)
     double square = kind->length_m * kind->length_m + kind->width_m * kind->width_m;
     double speed = 30.0 * sqrt(square / 12.0);
     (void)state;
-    steps_rows(&f).vx[b] = -1.01 * speed;
+    steps_rows(&f).row[b].vx = -1.01 * speed;
     begin();
     collide(a, b, 30.0);
     assert_true(measure_good(&check.measures, MEASURE_OF_SPIN));
-    now.entities.spin_y[a] = 19.0; /* it turns freely, and its axes differ */
+    now.entities.row[a].spin_y = 19.0; /* it turns freely, and its axes differ */
     next();
-    now.entities.spin_y[a] = 21.0;
+    now.entities.row[a].spin_y = 21.0;
     next();
     assert_true(measure_good(&check.measures, MEASURE_OF_SPIN));
-    now.entities.spin_y[a] = 9.0;
+    now.entities.row[a].spin_y = 9.0;
     next();
-    now.entities.spin_y[a] = 21.0;
+    now.entities.row[a].spin_y = 21.0;
     next();
     is_bad(MEASURE_OF_SPIN, 21.0);
 }
@@ -165,7 +165,7 @@ static void test_a_slow_body_spins_nothing_up(void **state)
 {
     uint32_t a = put("tank", MIDDLE, 100.0), b = put("tank", MIDDLE + 10.0, 100.0);
     (void)state;
-    steps_rows(&f).vx[b] = -20.0;
+    steps_rows(&f).row[b].vx = -20.0;
     begin();
     collide(a, b, 30.0);
     is_bad(MEASURE_OF_SPIN, 30.0);

@@ -32,7 +32,7 @@ static int begin(void **state)
     theirs = fixture_put(
         &f, (struct fixture_entity){.kind = "tank", .at = {MIDDLE + FAR_M, GROUND, MIDDLE}});
     now = fixture_state(&f);
-    now.entities.behaviour[theirs] = BEHAVIOUR_REMOTE;
+    now.entities.row[theirs].behaviour = BEHAVIOUR_REMOTE;
     assert_int_equal(physics_check_begin(&check, &f.view.world, &now), 0);
     return 0;
 }
@@ -71,19 +71,19 @@ static void test_they_are_not_judged(void **state)
     struct entities *e = &now.entities;
     (void)state;
     for (int i = 0; i < 10; i++) {
-        e->x[theirs] += i % 2 ? 8000.0 : -8000.0;
-        e->y[theirs] += 3.0 * (i - 5);
-        e->vx[theirs] = 1e4 * i;
-        e->spin_y[theirs] = 100.0 * i;
-        e->roll[theirs] = 0.3 * i;
+        e->row[theirs].x += i % 2 ? 8000.0 : -8000.0;
+        e->row[theirs].y += 3.0 * (i - 5);
+        e->row[theirs].vx = 1e4 * i;
+        e->row[theirs].spin_y = 100.0 * i;
+        e->row[theirs].roll = 0.3 * i;
         next();
     }
-    e->x[theirs] = (double)NAN;
+    e->row[theirs].x = (double)NAN;
     next();
     all_is_good();
     assert_int_equal(check.bodies, 11); /* ours, in each frame */
     assert_int_equal(check.most, 1);
-    now.entities.x[ours] += 1.0;
+    now.entities.row[ours].x += 1.0;
     next();
     assert_false(is_good(MEASURE_OF_JUMP)); /* nothing explains that */
 }
@@ -94,18 +94,18 @@ static void test_they_overlap_ours(void **state)
     struct entities *e = &now.entities;
     (void)state;
     next();
-    e->x[theirs] = MIDDLE + 1.0;
+    e->row[theirs].x = MIDDLE + 1.0;
     next();
     for (int i = 0; i < 6; i++) {
-        e->x[ours] -= ASIDE_M;
+        e->row[ours].x -= ASIDE_M;
         next();
     }
     all_is_good();
     assert_true(check.measures.of[MEASURE_OF_OVERLAP].taken == 0);
-    e->x[theirs] += FAR_M;
+    e->row[theirs].x += FAR_M;
     next();
     next();
-    e->x[ours] -= ASIDE_M;
+    e->row[ours].x -= ASIDE_M;
     next();
     assert_false(is_good(MEASURE_OF_JUMP));
 }
@@ -118,24 +118,24 @@ static void test_they_push_ours(void **state)
     (void)state;
     next();
     *event = (struct event){.sequence = now.head->event_end++, .type = EVENT_COLLISION};
-    event->collision.a.id = now.entities.id[ours];
-    event->collision.b.id = now.entities.id[theirs];
-    now.entities.vx[ours] = 5.0;
+    event->collision.a.id = now.entities.row[ours].id;
+    event->collision.b.id = now.entities.row[theirs].id;
+    now.entities.row[ours].vx = 5.0;
     next();
     all_is_good();
     now.head->contact_count = 1; /* the same by a contact that is not told */
-    now.contacts[0] = (struct persistent_contact){.a_id = now.entities.id[ours],
-                                                  .b_id = now.entities.id[theirs],
+    now.contacts[0] = (struct persistent_contact){.a_id = now.entities.row[ours].id,
+                                                  .b_id = now.entities.row[theirs].id,
                                                   .a_row = ours,
                                                   .b_row = theirs,
                                                   .pressed_tick = (uint32_t)now.head->tick + 1};
-    now.entities.vx[ours] = 9.0;
-    now.entities.x[ours] += 9.0 / 60.0;
+    now.entities.row[ours].vx = 9.0;
+    now.entities.row[ours].x += 9.0 / 60.0;
     next();
     all_is_good();
     now.head->contact_count = 0;
     next();
-    now.entities.vx[ours] = 14.0;
+    now.entities.row[ours].vx = 14.0;
     next();
     assert_false(is_good(MEASURE_OF_ENERGY));
 }

@@ -144,7 +144,7 @@ static void test_a_moving_world_is_good(void **state)
                                             .velocity = {10.0, 0.0, 0.0}});
     begin();
     for (int i = 0; i < 60; i++) {
-        now.entities.x[0] += 10.0 * DT;
+        now.entities.row[0].x += 10.0 * DT;
         next();
     }
     is_good();
@@ -171,15 +171,15 @@ static void test_a_tank_in_the_air(void **state)
 static uint32_t put_wreck(double clearance)
 {
     uint32_t tank = put("tank", MIDDLE, 101.5 + clearance);
-    steps_rows(&f).state[tank] = ENTITY_WRECK;
-    steps_rows(&f).roll[tank] = HALF_PI;
+    steps_rows(&f).row[tank].state = ENTITY_WRECK;
+    steps_rows(&f).row[tank].roll = HALF_PI;
     return tank;
 }
 
 /* Tells that the wreck rests from this frame on. */
 static void rest(uint32_t tank)
 {
-    now.entities.until_tick[tank] = (uint32_t)now.head->tick + 1;
+    now.entities.row[tank].until_tick = (uint32_t)now.head->tick + 1;
     next();
 }
 
@@ -222,12 +222,12 @@ static void test_a_wreck_that_moves_has_no_clearance(void **state)
 {
     uint32_t tank = put_wreck(0.3);
     (void)state;
-    steps_rows(&f).vx[tank] = 6.0;
+    steps_rows(&f).row[tank].vx = 6.0;
     begin();
-    now.entities.x[tank] += 6.0 * DT;
+    now.entities.row[tank].x += 6.0 * DT;
     rest(tank);
-    now.entities.until_tick[tank] = 0;
-    now.entities.x[tank] += 6.0 * DT;
+    now.entities.row[tank].until_tick = 0;
+    now.entities.row[tank].x += 6.0 * DT;
     next();
     is_good();
     assert_int_equal(check.measures.of[MEASURE_OF_WRECK_HEIGHT].taken, 0);
@@ -237,8 +237,8 @@ static void test_a_wreck_under_the_ground(void **state)
 {
     uint32_t tank = put("tank", MIDDLE, 98.5);
     (void)state;
-    steps_rows(&f).state[tank] = ENTITY_WRECK;
-    steps_rows(&f).pitch[tank] = 0.1;
+    steps_rows(&f).row[tank].state = ENTITY_WRECK;
+    steps_rows(&f).row[tank].pitch = 0.1;
     begin();
     is_bad(MEASURE_OF_UNDERGROUND, 1.5 + 3.0 * maths_sin(0.1));
 }
@@ -248,10 +248,10 @@ static void test_a_vehicle_is_placed_level(void **state)
 {
     uint32_t tank = put("tank", MIDDLE, 100.0);
     (void)state;
-    steps_rows(&f).pitch[tank] = 0.7;
+    steps_rows(&f).row[tank].pitch = 0.7;
     begin();
     is_good();
-    now.entities.pitch[tank] = 0.71;
+    now.entities.row[tank].pitch = 0.71;
     next();
     is_bad(MEASURE_OF_UNDERGROUND, 3.0 * maths_sin(0.71));
     no_other_is_bad(MEASURE_OF_UNDERGROUND);
@@ -263,13 +263,13 @@ static void test_a_wreck_that_sinks(void **state)
     uint32_t tank = put_wreck(-0.7);
     (void)state;
     begin();
-    now.entities.y[tank] += 0.04;
+    now.entities.row[tank].y += 0.04;
     next();
     is_good();
-    now.entities.y[tank] -= 0.05;
+    now.entities.row[tank].y -= 0.05;
     next();
     is_good();
-    now.entities.y[tank] -= 0.5;
+    now.entities.row[tank].y -= 0.5;
     next();
     is_bad(MEASURE_OF_WRECK_UNDERGROUND, 0.55);
 }
@@ -280,12 +280,12 @@ static void test_a_wreck_that_comes_out_slantwise(void **state)
     uint32_t tank = put_wreck(-0.7);
     (void)state;
     begin();
-    now.entities.x[tank] += 0.009;
-    now.entities.y[tank] -= 0.001;
+    now.entities.row[tank].x += 0.009;
+    now.entities.row[tank].y -= 0.001;
     next();
     is_good();
-    now.entities.x[tank] += 0.009;
-    now.entities.y[tank] -= 0.503;
+    now.entities.row[tank].x += 0.009;
+    now.entities.row[tank].y -= 0.503;
     next();
     is_bad(MEASURE_OF_WRECK_UNDERGROUND, 0.504);
 }
@@ -295,13 +295,13 @@ static void test_a_wreck_that_bounces(void **state)
 {
     uint32_t tank = put_wreck(0.01);
     (void)state;
-    steps_rows(&f).vy[tank] = -4.0;
+    steps_rows(&f).row[tank].vy = -4.0;
     begin();
-    now.entities.vy[tank] = 3.9;
+    now.entities.row[tank].vy = 3.9;
     next();
     is_good();
     assert_int_equal(check.measures.of[MEASURE_OF_ACCELERATION].taken, 0);
-    now.entities.vy[tank] = 4.0;
+    now.entities.row[tank].vy = 4.0;
     next();
     is_bad(MEASURE_OF_ENERGY, 0.5 * (4.0 * 4.0 - 3.9 * 3.9) - 1e-9 * 0.5 * (16.0 + 3.9 * 3.9));
     no_other_is_bad(MEASURE_OF_ENERGY);
@@ -315,14 +315,14 @@ static void test_the_energy_of_a_wreck_that_rolls(void **state)
     uint32_t tank = put("tank", MIDDLE, 130.0);
     double fall = high * (1.0 - maths_cos(rolled)) - 0.01;
     (void)state;
-    steps_rows(&f).state[tank] = ENTITY_WRECK;
+    steps_rows(&f).row[tank].state = ENTITY_WRECK;
     begin();
-    now.entities.y[tank] += 0.01;
-    now.entities.roll[tank] = rolled;
-    now.entities.vx[tank] = sqrt(2.0 * 9.80665 * fall);
+    now.entities.row[tank].y += 0.01;
+    now.entities.row[tank].roll = rolled;
+    now.entities.row[tank].vx = sqrt(2.0 * 9.80665 * fall);
     next();
     assert_true(check.measures.of[MEASURE_OF_ENERGY].worst < 1e-9);
-    now.entities.y[tank] += 0.01;
+    now.entities.row[tank].y += 0.01;
     next();
     assert_true(fabs(check.measures.of[MEASURE_OF_ENERGY].worst - 0.0980665) < 1e-6);
 }
@@ -333,10 +333,10 @@ static void test_a_wreck_that_is_pushed_out(void **state)
     uint32_t tank = put_wreck(-0.04);
     (void)state;
     begin();
-    now.entities.y[tank] += 0.03;
+    now.entities.row[tank].y += 0.03;
     next();
     is_good();
-    now.entities.y[tank] += 0.015;
+    now.entities.row[tank].y += 0.015;
     next();
     is_bad(MEASURE_OF_ENERGY, 9.80665 * 0.005);
     no_other_is_bad(MEASURE_OF_ENERGY);
@@ -348,15 +348,15 @@ static void test_an_aircraft_that_becomes_a_wreck(void **state)
     uint32_t plane = put("wishbone", MIDDLE, 600.0);
     (void)state;
     double faster = 20.0 + 0.9 * steps_kind(&f, "wishbone")->acceleration_mps2 * DT;
-    now.entities.vx[plane] = 20.0;
+    now.entities.row[plane].vx = 20.0;
     begin();
-    now.entities.x[plane] += 20.0 * DT;
-    now.entities.vx[plane] = faster;
-    steps_rows(&f).state[plane] = ENTITY_WRECK;
+    now.entities.row[plane].x += 20.0 * DT;
+    now.entities.row[plane].vx = faster;
+    steps_rows(&f).row[plane].state = ENTITY_WRECK;
     next();
     assert_true(measure_good(&check.measures, MEASURE_OF_ENERGY));
-    now.entities.x[plane] += faster * DT;
-    now.entities.vx[plane] = faster + 0.1;
+    now.entities.row[plane].x += faster * DT;
+    now.entities.row[plane].vx = faster + 0.1;
     next();
     assert_false(measure_good(&check.measures, MEASURE_OF_ENERGY));
 }
@@ -376,11 +376,11 @@ static void test_two_explosions_explain_a_way(void **state)
     begin();
     hit(tank);
     hit(tank);
-    now.entities.z[tank] += 0.03;
+    now.entities.row[tank].z += 0.03;
     next();
     is_good();
     hit(tank);
-    now.entities.z[tank] += 0.03;
+    now.entities.row[tank].z += 0.03;
     next();
     is_bad(MEASURE_OF_JUMP, 0.03);
 }
@@ -393,11 +393,11 @@ static void test_two_collisions_explain_a_way(void **state)
     begin();
     add_event(EVENT_COLLISION)->collision.a.id = tank + 1;
     add_event(EVENT_COLLISION)->collision.b.id = tank + 1;
-    now.entities.z[tank] += 0.03;
+    now.entities.row[tank].z += 0.03;
     next();
     is_good();
     add_event(EVENT_COLLISION)->collision.a.id = tank + 1;
-    now.entities.z[tank] += 0.03;
+    now.entities.row[tank].z += 0.03;
     next();
     is_bad(MEASURE_OF_JUMP, 0.03);
 }
@@ -419,11 +419,11 @@ static void test_two_impacts_of_contacts_explain_a_way(void **state)
     now.contacts[1].b_id++;
     now.contacts[1].impacts = 1;
     now.head->contact_count = 2;
-    now.entities.z[tank] += 0.03;
+    now.entities.row[tank].z += 0.03;
     next();
     is_good();
     now.contacts[1].impacts = 2;
-    now.entities.z[tank] += 0.03;
+    now.entities.row[tank].z += 0.03;
     next();
     is_bad(MEASURE_OF_JUMP, 0.03);
 }
@@ -447,15 +447,15 @@ static void test_two_boxes_overlap(void **state)
     (void)state;
     begin();
     is_good();
-    now.entities.x[b] -= 0.301;
-    now.entities.vx[b] = -0.301 / DT;
+    now.entities.row[b].x -= 0.301;
+    now.entities.row[b].vx = -0.301 / DT;
     next();
     is_bad(MEASURE_OF_OVERLAP, 0.3);
     is_bad(MEASURE_OF_OVERLAP_GROWTH, 0.3);
     assert_true(check.measures.of[MEASURE_OF_OVERLAPPING].worst == 1.0);
     assert_int_equal(check.measures.of[MEASURE_OF_OVERLAP].body[0].id, a + 1);
     assert_int_equal(check.measures.of[MEASURE_OF_OVERLAP].body[1].id, b + 1);
-    now.entities.x[b] -= 0.05;
+    now.entities.row[b].x -= 0.05;
     next();
     is_bad(MEASURE_OF_OVERLAP, 0.35);
     assert_true(fabs(check.measures.of[MEASURE_OF_OVERLAP_GROWTH].worst - 0.3) < 1e-9);
@@ -471,7 +471,7 @@ static void test_an_overlap_at_the_start_may_stay_but_not_grow(void **state)
     assert_true(fabs(check.measures.of[MEASURE_OF_START_OVERLAP].worst - 0.5) < 1e-9);
     next();
     is_good();
-    now.entities.x[b] -= 0.001;
+    now.entities.row[b].x -= 0.001;
     next();
     is_bad(MEASURE_OF_OVERLAP_GROWTH, 0.001);
     no_other_is_bad(MEASURE_OF_OVERLAP_GROWTH);
@@ -487,7 +487,7 @@ static void test_bodies_that_part_push_each_other(void **state)
     put("tank", MIDDLE + 10.9, 100.0);
     begin();
     next();
-    now.entities.x[b] -= 0.05;
+    now.entities.row[b].x -= 0.05;
     next();
     is_good();
 }
@@ -501,7 +501,7 @@ static void test_spheres_overlap(void **state)
     put("tank", MIDDLE, 100.0);
     b = put("tank", MIDDLE + 2.0 * radius + 0.01, 100.0);
     begin();
-    now.entities.x[b] -= 0.11;
+    now.entities.row[b].x -= 0.11;
     next();
     steps_params(&f)->collision.shape = SHAPE_MODEL;
     is_bad(MEASURE_OF_OVERLAP, 0.1);
@@ -515,7 +515,7 @@ static void test_no_bound_where_the_response_promises_none(void **state)
     put("tank", MIDDLE, 100.0);
     b = put("tank", MIDDLE + 6.005, 100.0);
     begin();
-    now.entities.x[b] -= 0.009;
+    now.entities.row[b].x -= 0.009;
     next();
     steps_params(&f)->collision.response = MODEL_IMPULSE;
     assert_true(fabs(check.measures.of[MEASURE_OF_OVERLAP].worst - 0.004) < 1e-9);
@@ -544,14 +544,14 @@ static void test_a_wall(void **state)
     (void)state;
     begin();
     is_good();
-    now.entities.x[tank] -= 0.01 * sine;
-    now.entities.z[tank] += 0.01 * cosine;
+    now.entities.row[tank].x -= 0.01 * sine;
+    now.entities.row[tank].z += 0.01 * cosine;
     next();
     is_bad(MEASURE_OF_WALL_OVERLAP, 0.005);
     assert_true(check.measures.of[MEASURE_OF_WALL_OVERLAP].body[1].fixed);
     now.fixed_damage[0] = DAMAGE_HIGH; /* it has fallen and is no obstacle */
-    now.entities.x[tank] -= 0.01 * sine;
-    now.entities.z[tank] += 0.01 * cosine;
+    now.entities.row[tank].x -= 0.01 * sine;
+    now.entities.row[tank].z += 0.01 * cosine;
     next();
     assert_true(fabs(check.measures.of[MEASURE_OF_WALL_OVERLAP].worst - 0.005) < 1e-9);
 }
@@ -567,8 +567,8 @@ static void test_a_wall_overlapped_from_the_start(void **state)
     next();
     next();
     assert_true(check.measures.of[MEASURE_OF_OVERLAPPING].worst == 1.0);
-    now.entities.x[tank] -= 0.001 * sine;
-    now.entities.z[tank] += 0.001 * cosine;
+    now.entities.row[tank].x -= 0.001 * sine;
+    now.entities.row[tank].z += 0.001 * cosine;
     next();
     is_bad(MEASURE_OF_OVERLAP_GROWTH, 0.001);
     no_other_is_bad(MEASURE_OF_OVERLAP_GROWTH);
@@ -580,7 +580,7 @@ static void test_speed_from_nowhere(void **state)
     double engine = steps_kind(&f, "tank")->acceleration_mps2;
     (void)state;
     begin();
-    now.entities.vx[tank] = 5.0;
+    now.entities.row[tank].vx = 5.0;
     next();
     is_bad(MEASURE_OF_ACCELERATION, 300.0);
     assert_true(fabs(check.measures.of[MEASURE_OF_ENERGY].worst -
@@ -598,13 +598,13 @@ static void test_a_wreck_that_turns_over_in_the_air(void **state)
     for (uint32_t frame = 0; frame < 60; frame++) {
         double angle = rate * DT * frame, speed = -GRAVITY_MPS2 * DT * frame;
         const struct entities rows = frame == 0 ? steps_rows(&f) : now.entities, *e = &rows;
-        e->state[tank] = ENTITY_WRECK;
-        e->roll[tank] = angle;
-        e->spin_x[tank] = rate; /* it faces east, so that its right side goes down */
-        e->y[tank] = 200.0 + 0.5 * speed * DT * frame - arm * cos(angle);
-        e->z[tank] = MIDDLE + drift * DT * frame - arm * sin(angle);
-        e->vy[tank] = speed + arm * rate * sin(angle);
-        e->vz[tank] = drift - arm * rate * cos(angle);
+        e->row[tank].state = ENTITY_WRECK;
+        e->row[tank].roll = angle;
+        e->row[tank].spin_x = rate; /* it faces east, so that its right side goes down */
+        e->row[tank].y = 200.0 + 0.5 * speed * DT * frame - arm * cos(angle);
+        e->row[tank].z = MIDDLE + drift * DT * frame - arm * sin(angle);
+        e->row[tank].vy = speed + arm * rate * sin(angle);
+        e->row[tank].vz = drift - arm * rate * cos(angle);
         if (frame == 0)
             begin();
         else
@@ -620,7 +620,7 @@ static void test_a_command_an_explosion_and_a_collision_explain_it(void **state)
     uint32_t a = put("tank", MIDDLE, 100.0), b = put("tank", MIDDLE + 20.0, 100.0);
     (void)state;
     begin();
-    now.entities.vx[a] = 5.0;
+    now.entities.row[a].vx = 5.0;
     add_event(EVENT_COMMAND)->command.entity = a + 1;
     next();
     is_good();
@@ -629,21 +629,21 @@ static void test_a_command_an_explosion_and_a_collision_explain_it(void **state)
     event->detonation.point[1] = 100.0;
     event->detonation.point[2] = MIDDLE;
     event->detonation.explosive_kg = 1.0f;
-    now.entities.vx[b] = -5.0;
+    now.entities.row[b].vx = -5.0;
     next();
     is_good();
     /* One gives energy to the other: that of both together stays. */
     event = add_event(EVENT_COLLISION);
     event->collision.a.id = a + 1;
     event->collision.b.id = b + 1;
-    now.entities.vx[a] = -sqrt(50.0 - 9.0);
-    now.entities.vx[b] = 3.0;
+    now.entities.row[a].vx = -sqrt(50.0 - 9.0);
+    now.entities.row[b].vx = 3.0;
     next();
     is_good();
     event = add_event(EVENT_COLLISION);
     event->collision.a.id = a + 1;
     event->collision.b.id = b + 1;
-    now.entities.vx[b] = 5.0;
+    now.entities.row[b].vx = 5.0;
     next();
     assert_true(measure_good(&check.measures, MEASURE_OF_ACCELERATION));
     assert_false(measure_good(&check.measures, MEASURE_OF_ENERGY));
@@ -656,7 +656,7 @@ static void test_bodies_that_pressed_share_their_energy(void **state)
     (void)state;
     begin();
     add_event(EVENT_COMMAND)->command.entity = a + 1;
-    now.entities.vx[a] = 5.0;
+    now.entities.row[a].vx = 5.0;
     next();
     now.contacts[0] = (struct persistent_contact){.a_id = a + 1,
                                                   .b_id = b + 1,
@@ -664,11 +664,11 @@ static void test_bodies_that_pressed_share_their_energy(void **state)
                                                   .b_row = b,
                                                   .pressed_tick = (uint32_t)now.head->tick + 1};
     now.head->contact_count = 1;
-    now.entities.vx[a] = 2.0;
-    now.entities.vx[b] = 4.5;
+    now.entities.row[a].vx = 2.0;
+    now.entities.row[b].vx = 4.5;
     next();
     assert_true(measure_good(&check.measures, MEASURE_OF_ENERGY));
-    now.entities.vx[a] = 4.5;
+    now.entities.row[a].vx = 4.5;
     next();
     assert_false(measure_good(&check.measures, MEASURE_OF_ENERGY));
 }
@@ -679,8 +679,8 @@ static void test_speed_and_spin(void **state)
     (void)state;
     begin();
     add_event(EVENT_COMMAND)->command.entity = tank + 1;
-    now.entities.vx[tank] = 3.0 * steps_kind(&f, "tank")->max_speed_mps;
-    now.entities.spin_y[tank] = -30.0;
+    now.entities.row[tank].vx = 3.0 * steps_kind(&f, "tank")->max_speed_mps;
+    now.entities.row[tank].spin_y = -30.0;
     next();
     is_bad(MEASURE_OF_SPEED, 3.0);
     is_bad(MEASURE_OF_SPIN, 30.0);
@@ -691,7 +691,7 @@ static void test_a_jump(void **state)
     uint32_t tank = put("tank", MIDDLE, 100.0);
     (void)state;
     begin();
-    now.entities.z[tank] += 0.25;
+    now.entities.row[tank].z += 0.25;
     next();
     is_bad(MEASURE_OF_JUMP, 0.25);
     no_other_is_bad(MEASURE_OF_JUMP);
@@ -701,10 +701,10 @@ static void test_a_wreck_that_snaps(void **state)
 {
     uint32_t tank = put("tank", MIDDLE, 100.0);
     (void)state;
-    steps_rows(&f).state[tank] = ENTITY_WRECK;
-    steps_rows(&f).spin_y[tank] = -6.0;
+    steps_rows(&f).row[tank].state = ENTITY_WRECK;
+    steps_rows(&f).row[tank].spin_y = -6.0;
     begin();
-    now.entities.heading[tank] += 0.6;
+    now.entities.row[tank].heading += 0.6;
     next();
     is_bad(MEASURE_OF_SNAP, 0.5);
     no_other_is_bad(MEASURE_OF_SNAP);
@@ -715,12 +715,12 @@ static void test_no_numbers_and_no_world(void **state)
     uint32_t a = put("tank", MIDDLE, 100.0), b = put("jeep", 49999.0, 100.0);
     (void)state;
     begin();
-    now.entities.vy[a] = NAN;
-    now.entities.pitch[a] = HUGE_VAL;
+    now.entities.row[a].vy = NAN;
+    now.entities.row[a].pitch = HUGE_VAL;
     next();
     is_bad(MEASURE_OF_NOT_FINITE, 2.0);
     no_other_is_bad(MEASURE_OF_NOT_FINITE);
-    now.entities.x[b] = 50000.5;
+    now.entities.row[b].x = 50000.5;
     next();
     is_bad(MEASURE_OF_OUTSIDE, 0.5);
 }
@@ -730,8 +730,8 @@ static void test_another_body_in_the_row_does_not_jump(void **state)
     uint32_t tank = put("tank", MIDDLE, 100.0);
     (void)state;
     begin();
-    now.entities.x[tank] += 500.0;
-    now.entities.id[tank] = 77;
+    now.entities.row[tank].x += 500.0;
+    now.entities.row[tank].id = 77;
     next();
     is_good();
 }

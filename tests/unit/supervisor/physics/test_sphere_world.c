@@ -40,10 +40,10 @@ static void test_a_box_at_rest_on_its_side(void **state)
     const struct vec3 at = {25000.0, FIXTURE_GROUND_M + 0.5 * kind->width_m, 25000.0};
     uint32_t tank = fixture_put(&f, (struct fixture_entity){.kind = "tank", .at = at});
     struct state now = fixture_state(&f);
-    now.entities.state[tank] = ENTITY_WRECK;
-    now.entities.roll[tank] = HALF_PI;
+    now.entities.row[tank].state = ENTITY_WRECK;
+    now.entities.row[tank].roll = HALF_PI;
     assert_int_equal(physics_check_begin(&check, &f.view.world, &now), 0);
-    now.entities.until_tick[tank] = (uint32_t)now.head->tick + 1; /* it rests from now on */
+    now.entities.row[tank].until_tick = (uint32_t)now.head->tick + 1; /* it rests from now on */
     next(&now);
     next(&now);
     assert_true(measures_good(&check.measures));

@@ -50,8 +50,8 @@ static void begin(double height_m, double up_mps)
                                             .at = {25000.0, 100.0 + height_m, 25000.0},
                                             .behaviour = BEHAVIOUR_DRIVEN});
     now = fixture_state(&f);
-    now.entities.flags[0] |= ENTITY_FLAG_CHASSIS;
-    now.entities.vy[0] = up_mps;
+    now.entities.row[0].flags |= ENTITY_FLAG_CHASSIS;
+    now.entities.row[0].vy = up_mps;
     assert_int_equal(physics_check_begin(&check, &f.view.world, &now), 0);
 }
 
@@ -72,7 +72,7 @@ static void test_a_shell_in_the_ground(void **state)
     begin(-travel + 0.01, 0.0);
     next();
     assert_true(measure_good(&check.measures, MEASURE_OF_SHELL_UNDERGROUND));
-    now.entities.y[0] = 100.0 - travel - 0.16;
+    now.entities.row[0].y = 100.0 - travel - 0.16;
     next();
     assert_true(fabs(worst(MEASURE_OF_SHELL_UNDERGROUND) - 0.16) < 1e-9);
     assert_false(measure_good(&check.measures, MEASURE_OF_SHELL_UNDERGROUND));
@@ -136,17 +136,17 @@ static void test_a_tank_that_falls_is_good_and_one_that_floats_is_not(void **sta
 {
     (void)state;
     begin(3.0, 0.0);
-    now.entities.spin_z[0] = 1e-12;
+    now.entities.row[0].spin_z = 1e-12;
     for (int n = 0; n < 20; n++) {
-        double v = now.entities.vy[0] - GRAVITY_MPS2 * DT;
-        now.entities.y[0] += 0.5 * (v + now.entities.vy[0]) * DT;
-        now.entities.vy[0] = v;
+        double v = now.entities.row[0].vy - GRAVITY_MPS2 * DT;
+        now.entities.row[0].y += 0.5 * (v + now.entities.row[0].vy) * DT;
+        now.entities.row[0].vy = v;
         next();
     }
     assert_true(worst(MEASURE_OF_FLOATING) >= 0.0 && worst(MEASURE_OF_FLOATING) < 1e-9);
     assert_true(worst(MEASURE_OF_SPRUNG_ENERGY) >= 0.0 && worst(MEASURE_OF_SPRUNG_ENERGY) < 1e-6);
     next(); /* it stands still in the air */
-    now.entities.vy[0] = 0.0;
+    now.entities.row[0].vy = 0.0;
     next();
     assert_true(worst(MEASURE_OF_FLOATING) >= GRAVITY_MPS2 - 1e-9);
     assert_false(measure_good(&check.measures, MEASURE_OF_FLOATING));
@@ -157,10 +157,10 @@ static void test_energy_that_no_engine_gives(void **state)
     (void)state;
     const struct kind *kind = steps_kind(&f, "tank");
     begin(0.0, 0.0);
-    now.entities.spin_z[0] = 1e-12;
+    now.entities.row[0].spin_z = 1e-12;
     next();
     assert_true(worst(MEASURE_OF_SPRUNG_ENERGY) < 1e-9);
-    now.entities.vx[0] = 4.0; /* 8 J/kg, in one frame */
+    now.entities.row[0].vx = 4.0; /* 8 J/kg, in one frame */
     next();
     double engine = kind->power_w / kind->mass_kg * DT;
     assert_true(fabs(worst(MEASURE_OF_SPRUNG_ENERGY) - (8.0 - engine)) < 1e-6);
@@ -174,13 +174,13 @@ static void test_a_climb_with_the_ground_is_no_energy_of_springs(void **state)
     (void)state;
     begin(0.0, 0.0);
     next();
-    now.entities.vy[0] = 4.0;
+    now.entities.row[0].vy = 4.0;
     next();
     assert_true(measure_good(&check.measures, MEASURE_OF_SPRUNG_ENERGY));
-    now.entities.vy[0] = 0.0;
+    now.entities.row[0].vy = 0.0;
     next();
-    now.entities.vy[0] = 4.0;
-    now.entities.spin_x[0] = 0.1;
+    now.entities.row[0].vy = 4.0;
+    now.entities.row[0].spin_x = 0.1;
     next();
     assert_false(measure_good(&check.measures, MEASURE_OF_SPRUNG_ENERGY));
 }
@@ -192,15 +192,15 @@ static void test_a_slide_is_faster_than_the_engine(void **state)
     double fast = 3.0 * steps_kind(&f, "tank")->max_speed_mps;
     (void)state;
     begin(0.0, -fast);
-    now.entities.vx[0] = fast;
+    now.entities.row[0].vx = fast;
     next();
-    now.entities.vy[0] = 0.0; /* where it comes to the foot */
+    now.entities.row[0].vy = 0.0; /* where it comes to the foot */
     next();
     assert_true(measure_good(&check.measures, MEASURE_OF_SPEED));
-    now.entities.vx[0] = 0.3 * fast;
+    now.entities.row[0].vx = 0.3 * fast;
     next();
-    now.entities.vx[0] = fast;
-    now.entities.vy[0] = -0.4 * fast;
+    now.entities.row[0].vx = fast;
+    now.entities.row[0].vy = -0.4 * fast;
     next();
     assert_false(measure_good(&check.measures, MEASURE_OF_SPEED));
 }
@@ -210,7 +210,7 @@ static void test_a_drop_on_its_springs_gains_nothing(void **state)
 {
     (void)state;
     begin(0.3, 0.0);
-    now.entities.flags[0] |= ENTITY_FLAG_CHASSIS;
+    now.entities.row[0].flags |= ENTITY_FLAG_CHASSIS;
     physics_check_free(&check);
     fixture_run(&f, 1);
     now = fixture_state(&f);

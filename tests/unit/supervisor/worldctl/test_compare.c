@@ -71,7 +71,7 @@ static void test_every_column_is_compared(void **state)
     (void)state;
 #define X(type, name)                                                                              \
     {                                                                                              \
-        unsigned char *byte = (unsigned char *)&e.name[3] + sizeof(type) - 1;                      \
+        unsigned char *byte = (unsigned char *)&e.row[3].name + sizeof(type) - 1;                  \
         *byte ^= 1;                                                                                \
         assert_true(differ(&difference));                                                          \
         assert_string_equal(difference.column, #name);                                             \
@@ -79,7 +79,7 @@ static void test_every_column_is_compared(void **state)
         assert_int_equal(difference.columns, 1);                                                   \
         *byte ^= 1;                                                                                \
     }
-    ENTITY_COLUMNS(X)
+    ENTITY_FIELDS(X)
 #undef X
 }
 
@@ -87,9 +87,9 @@ static void test_the_smallest_difference_is_named_with_both_values(void **state)
 {
     struct difference difference;
     (void)state;
-    steps_rows(&f).x[1] = 0.1;
-    steps_rows(&g).x[1] = 0.1 + 1e-17 + 2e-17;
-    steps_rows(&g).z[4] = 7.0;
+    steps_rows(&f).row[1].x = 0.1;
+    steps_rows(&g).row[1].x = 0.1 + 1e-17 + 2e-17;
+    steps_rows(&g).row[4].z = 7.0;
     assert_true(differ(&difference));
     assert_string_equal(difference.field, "x of entity 2 (row 1)");
     assert_string_equal(difference.a, "0.10000000000000001");

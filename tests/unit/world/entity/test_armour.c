@@ -130,16 +130,16 @@ static void shoot(double bearing_deg, const char *munition, unsigned count[DAMAG
                                                        FIXTURE_GROUND_M + 0.9 + 0.01 * n,
                                                        25000.0 - 15.0 * cosine},
                                                 .velocity = {-speed * sine, 0.0, speed * cosine}});
-        steps_rows(&f).id[1] = (uint32_t)(100 + n);
+        steps_rows(&f).row[1].id = (uint32_t)(100 + n);
         fixture_run(&f, 2);
         const struct event *event = fixture_event(&f, EVENT_DETONATION, 0);
         assert_non_null(event);
         assert_int_equal(event->detonation.struck, STRUCK_VEHICLE);
         *broken += event->detonation.explosive_kg == 0.0f;
-        enum damage damage = steps_rows(&f).damage[tank];
+        enum damage damage = steps_rows(&f).row[tank].damage;
         count[damage]++;
         /* Only a round that strikes the gun alone does high damage at once. */
-        assert_true(((steps_rows(&f).flags[tank] & ENTITY_FLAG_DISARMED) != 0) ==
+        assert_true(((steps_rows(&f).row[tank].flags & ENTITY_FLAG_DISARMED) != 0) ==
                     (damage == DAMAGE_HIGH));
     }
     fixture_close(&f);
@@ -188,8 +188,8 @@ static void test_a_shell_along_the_side_breaks_up(void **state)
     assert_int_equal(event->detonation.struck, STRUCK_VEHICLE);
     assert_true(event->detonation.explosive_kg == 0.0f);
     assert_int_equal(event->detonation.struck_party.damage, DAMAGE_NONE);
-    assert_int_equal(steps_rows(&f).damage[tank], DAMAGE_NONE);
-    assert_true(steps_rows(&f).harm_j[tank] == 0.0);
+    assert_int_equal(steps_rows(&f).row[tank].damage, DAMAGE_NONE);
+    assert_true(steps_rows(&f).row[tank].harm_j == 0.0);
     fixture_close(&f);
 }
 
@@ -211,12 +211,12 @@ static void test_hit_rates_by_dispersion(void **state)
                     .kind = "tank",
                     .at = {25000.0, 5000.0, 25000.0},
                     .velocity = {0.0, 0.0, moving ? -steps_kind(&f, "tank")->max_speed_mps : 0.0}});
-        steps_rows(&f).rounds[tank] = SHOTS;
+        steps_rows(&f).row[tank].rounds = SHOTS;
         steps_serial_context(&f, &step, &context);
         for (uint32_t n = 0; n < SHOTS; n++) {
             assert_true(fire_shoot(&context, tank, SLOT_NONE, KIND_NONE));
-            off[n][0] = maths_wrap_half(f.view.m.entities.heading[n + 1]);
-            off[n][1] = f.view.m.entities.pitch[n + 1];
+            off[n][0] = maths_wrap_half(f.view.m.entities.row[n + 1].heading);
+            off[n][1] = f.view.m.entities.row[n + 1].pitch;
         }
         for (int km = 1; km <= 3; km++) {
             int hits = 0;

@@ -19,7 +19,7 @@ static void *memory;
 static int make_row(void **state)
 {
     (void)state;
-    memory = aligned_alloc(COLUMN_ALIGN, entities_bytes(CAPACITY_MIN));
+    memory = aligned_alloc(TABLE_ALIGN, entities_bytes(CAPACITY_MIN));
     assert_non_null(memory);
     entities_bind(&e, CAPACITY_MIN, memory);
     entities_clear(&e, 0);
@@ -38,10 +38,10 @@ static void set_stretch(double rps, double mps2)
 {
     entities_set_position(&e, 0, (struct vec3){1000.0, 50.0, 2000.0});
     entities_set_velocity(&e, 0, (struct vec3){12.0, 0.5, 0.0});
-    e.heading[0] = HALF_PI;
-    e.cruise_rps[0] = rps;
-    e.cruise_mps2[0] = mps2;
-    e.cruise_tick[0] = ENDS;
+    e.row[0].heading = HALF_PI;
+    e.row[0].cruise_rps = rps;
+    e.row[0].cruise_mps2 = mps2;
+    e.row[0].cruise_tick = ENDS;
 }
 
 static void test_a_stretch_has_half_a_second(void **state)
@@ -82,16 +82,16 @@ static struct vec3 go_on(uint64_t tick)
 {
     struct vec3 at = cruise_position(&e, 0, tick, DT_S);
     double heading = cruise_heading(&e, 0, tick, DT_S);
-    double left_s = cruise_left_s(&e, 0, tick, DT_S), speed = 12.0 - e.cruise_mps2[0] * left_s;
+    double left_s = cruise_left_s(&e, 0, tick, DT_S), speed = 12.0 - e.row[0].cruise_mps2 * left_s;
     const uint32_t steps = 20000;
     double dt = left_s / steps;
     for (uint32_t i = 0; i < steps; i++) {
-        double middle = heading + 0.5 * e.cruise_rps[0] * dt;
-        double way = (speed + 0.5 * e.cruise_mps2[0] * dt) * dt;
+        double middle = heading + 0.5 * e.row[0].cruise_rps * dt;
+        double way = (speed + 0.5 * e.row[0].cruise_mps2 * dt) * dt;
         at.x += way * maths_sin(middle);
         at.z -= way * maths_cos(middle);
-        heading += e.cruise_rps[0] * dt;
-        speed += e.cruise_mps2[0] * dt;
+        heading += e.row[0].cruise_rps * dt;
+        speed += e.row[0].cruise_mps2 * dt;
     }
     return at;
 }
@@ -120,7 +120,7 @@ static void test_an_aircraft_climbs_ever_faster(void **state)
 {
     (void)state;
     set_stretch(0.0, 0.0);
-    e.cruise_climb_mps2[0] = 4.0f;
+    e.row[0].cruise_climb_mps2 = 4.0f;
     for (uint64_t tick = ENDS - 30; tick < ENDS; tick += 5) {
         double left_s = cruise_left_s(&e, 0, tick, DT_S);
         double climb = cruise_velocity(&e, 0, tick, DT_S).y;

@@ -44,10 +44,10 @@ static void open_case(size_t n, enum behaviour behaviour)
                                                               .force = FORCE_RED,
                                                               .behaviour = BEHAVIOUR_HOLD});
     struct entities e = steps_rows(&f);
-    e.damage[row] = (uint8_t)cases[n].damage;
-    e.flags[row] = cases[n].flags;
-    e.behaviour[row] = (uint8_t)behaviour;
-    e.order[row] = BEHAVIOUR_IDLE;
+    e.row[row].damage = (uint8_t)cases[n].damage;
+    e.row[row].flags = cases[n].flags;
+    e.row[row].behaviour = (uint8_t)behaviour;
+    e.row[row].order = BEHAVIOUR_IDLE;
     steps_target(&f, row, target);
 }
 
@@ -57,15 +57,15 @@ static void test_what_a_driver_can_do(void **state)
     for (size_t n = 0; n < COUNT; n++) {
         open_case(n, BEHAVIOUR_DRIVEN);
         struct entities e = steps_rows(&f);
-        e.until_tick[0] = UINT32_MAX;
-        e.throttle[0] = 1.0f;
+        e.row[0].until_tick = UINT32_MAX;
+        e.row[0].throttle = 1.0f;
         fixture_run(&f, 4 * HZ);
         e = steps_rows(&f);
         assert_true((steps_speed(&f, 0) > 2.0) == cases[n].drives);
-        uint32_t rounds = e.rounds[0];
+        uint32_t rounds = e.row[0].rounds;
         steps_aim(&f, 0, 1);
         steps_command(&f, (struct command){.type = COMMAND_FIRE, .entity = 1, .target = 2});
-        assert_true((steps_rows(&f).rounds[0] < rounds) == cases[n].fires);
+        assert_true((steps_rows(&f).row[0].rounds < rounds) == cases[n].fires);
         fixture_close(&f);
     }
 }
@@ -76,10 +76,10 @@ static void test_what_a_crew_can_do(void **state)
     for (size_t n = 0; n < COUNT; n++) {
         open_case(n, BEHAVIOUR_ATTACK);
         struct entities e = steps_rows(&f);
-        e.until_tick[0] = UINT32_MAX;
-        e.flags[0] |= ENTITY_FLAG_STAND;
-        e.goal_x[0] = e.x[1];
-        e.goal_z[0] = e.z[1];
+        e.row[0].until_tick = UINT32_MAX;
+        e.row[0].flags |= ENTITY_FLAG_STAND;
+        e.row[0].goal_x = e.row[1].x;
+        e.row[0].goal_z = e.row[1].z;
         fixture_run(&f, 30 * HZ);
         assert_true((fixture_event_count(&f, EVENT_FIRE) > 0) == cases[n].fires);
         fixture_close(&f);
@@ -94,10 +94,11 @@ static void test_a_crew_that_cannot_drive_does_not_flee(void **state)
         open_case(immobile ? 2 : 1, BEHAVIOUR_IDLE);
         steps_kind(&f, "tank")->courage = 0.0;
         struct entities e = steps_rows(&f);
-        e.threat_slot[0] = 1;
-        e.threat_id[0] = e.id[1];
+        e.row[0].threat_slot = 1;
+        e.row[0].threat_id = e.row[1].id;
         fixture_run(&f, 3 * HZ);
-        assert_int_equal(steps_rows(&f).behaviour[0], immobile ? BEHAVIOUR_IDLE : BEHAVIOUR_FLEE);
+        assert_int_equal(steps_rows(&f).row[0].behaviour,
+                         immobile ? BEHAVIOUR_IDLE : BEHAVIOUR_FLEE);
         assert_true((steps_speed(&f, 0) > 1.0) == !immobile);
         fixture_close(&f);
     }

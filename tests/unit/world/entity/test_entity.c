@@ -21,48 +21,43 @@ struct table {
 static struct table make(uint32_t capacity, int fill)
 {
     struct table table = {.bytes = entities_bytes(capacity)};
-    table.memory = aligned_alloc(COLUMN_ALIGN, table.bytes);
+    table.memory = aligned_alloc(TABLE_ALIGN, table.bytes);
     assert_non_null(table.memory);
     memset(table.memory, fill, table.bytes);
     entities_bind(&table.entities, capacity, table.memory);
     return table;
 }
 
-static void test_columns_are_aligned_and_do_not_overlap(void **state)
+static void test_a_table_has_room_for_its_rows(void **state)
 {
     (void)state;
     for (size_t c = 0; c < sizeof capacities / sizeof capacities[0]; c++) {
         struct table t = make(capacities[c], 0);
-        const unsigned char *end = t.memory;
+        size_t rows = capacities[c] * sizeof(struct entity);
         assert_int_equal(t.entities.capacity, capacities[c]);
-#define X(type, name)                                                                              \
-    assert_int_equal((uintptr_t)t.entities.name % COLUMN_ALIGN, 0);                                \
-    assert_true((const unsigned char *)t.entities.name >= end);                                    \
-    end = (const unsigned char *)(t.entities.name + capacities[c]);
-        ENTITY_COLUMNS(X)
-#undef X
-        assert_true(end <= t.memory + t.bytes);
+        assert_ptr_equal(t.entities.row, t.memory);
+        assert_true(t.bytes >= rows && t.bytes < rows + TABLE_ALIGN);
+        assert_int_equal(t.bytes % TABLE_ALIGN, 0);
         free(t.memory);
     }
+    assert_true(entities_bytes(CAPACITY_MAX) == (size_t)CAPACITY_MAX * sizeof(struct entity));
 }
 
-static void test_bytes_hold_every_row_and_little_more(void **state)
+/* Rows are compared and hashed as they lie in memory, so all bytes but the last belong to a field.
+ */
+static void test_a_row_has_one_byte_that_is_no_field(void **state)
 {
-    size_t columns = 0;
+    size_t bytes = 0;
     (void)state;
-#define X(type, name) columns++;
-    ENTITY_COLUMNS(X)
+#define X(type, name)                                                                              \
+    assert_int_equal(offsetof(struct entity, name), bytes);                                        \
+    bytes += sizeof(type);
+    ENTITY_FIELDS(X)
 #undef X
-    for (size_t c = 0; c < sizeof capacities / sizeof capacities[0]; c++) {
-        size_t rows = capacities[c] * entities_row_bytes();
-        assert_true(entities_bytes(capacities[c]) >= rows);
-        assert_true(entities_bytes(capacities[c]) < rows + columns * COLUMN_ALIGN);
-        assert_int_equal(entities_bytes(capacities[c]) % COLUMN_ALIGN, 0);
-    }
-    assert_true(entities_bytes(CAPACITY_MAX) == (size_t)CAPACITY_MAX * entities_row_bytes());
+    assert_int_equal(bytes + 1, sizeof(struct entity));
 }
 
-static void test_copy_takes_its_rows_of_every_column_and_no_other(void **state)
+static void test_copy_takes_its_rows_of_every_field_and_no_other(void **state)
 {
     const uint32_t capacity = 65, first = 7, count = 31;
     struct table from = make(capacity, 0xaa), to = make(capacity, 0x55);
@@ -73,8 +68,8 @@ static void test_copy_takes_its_rows_of_every_column_and_no_other(void **state)
     entities_copy(&to.entities, &from.entities, first, count);
     for (uint32_t i = 0; i < capacity; i++) {
         const unsigned char *wanted = i >= first && i < first + count ? new : old;
-#define X(type, name) assert_memory_equal(&to.entities.name[i], wanted, sizeof(type));
-        ENTITY_COLUMNS(X)
+#define X(type, name) assert_memory_equal(&to.entities.row[i].name, wanted, sizeof(type));
+        ENTITY_FIELDS(X)
 #undef X
     }
     entities_copy(&to.entities, &from.entities, capacity, 0); /* nothing, at the end */
@@ -82,7 +77,7 @@ static void test_copy_takes_its_rows_of_every_column_and_no_other(void **state)
     free(to.memory);
 }
 
-static void test_clear_empties_one_row_of_every_column(void **state)
+static void test_clear_empties_one_row_of_every_field(void **state)
 {
     const uint32_t capacity = 20, row = 19;
     struct table t = make(capacity, 0xff);
@@ -92,11 +87,11 @@ static void test_clear_empties_one_row_of_every_column(void **state)
     entities_clear(&t.entities, row);
     for (uint32_t i = 0; i < capacity; i++) {
 #define X(type, name)                                                                              \
-    assert_memory_equal(&t.entities.name[i], i == row ? zeros : ones, sizeof(type));
-        ENTITY_COLUMNS(X)
+    assert_memory_equal(&t.entities.row[i].name, i == row ? zeros : ones, sizeof(type));
+        ENTITY_FIELDS(X)
 #undef X
     }
-    assert_int_equal(t.entities.state[row], ENTITY_FREE);
+    assert_int_equal(t.entities.row[row].state, ENTITY_FREE);
     free(t.memory);
 }
 
@@ -106,8 +101,8 @@ static void test_find_looks_at_used_rows_that_are_not_free(void **state)
     const struct entities *e = &t.entities;
     (void)state;
     for (uint32_t i = 0; i < 16; i++) {
-        e->id[i] = 100 + i;
-        e->state[i] = i % 3 == 0 ? ENTITY_FREE : i % 3 == 1 ? ENTITY_ACTIVE : ENTITY_WRECK;
+        e->row[i].id = 100 + i;
+        e->row[i].state = i % 3 == 0 ? ENTITY_FREE : i % 3 == 1 ? ENTITY_ACTIVE : ENTITY_WRECK;
     }
     assert_int_equal(entities_find(e, 16, 101), 1);
     assert_int_equal(entities_find(e, 16, 102), 2);         /* a wreck is there */
@@ -115,7 +110,7 @@ static void test_find_looks_at_used_rows_that_are_not_free(void **state)
     assert_int_equal(entities_find(e, 10, 110), SLOT_NONE); /* past used */
     assert_int_equal(entities_find(e, 11, 110), 10);
     assert_int_equal(entities_find(e, 16, 999), SLOT_NONE);
-    e->id[4] = 0;
+    e->row[4].id = 0;
     assert_int_equal(entities_find(e, 16, 0), SLOT_NONE); /* 0 is no entity */
     free(t.memory);
 }
@@ -125,15 +120,15 @@ static void test_a_reference_is_dead_when_the_id_differs(void **state)
     struct table t = make(16, 0);
     const struct entities *e = &t.entities;
     (void)state;
-    e->id[5] = 42;
-    e->state[5] = ENTITY_WRECK;
+    e->row[5].id = 42;
+    e->row[5].state = ENTITY_WRECK;
     assert_true(entities_alive(e, 5, 42));
     assert_false(entities_alive(e, 5, 41));
     assert_false(entities_alive(e, 6, 42));
     assert_false(entities_alive(e, SLOT_NONE, 42));
     assert_false(entities_alive(e, 16, 42));
     assert_false(entities_alive(e, 6, 0));
-    e->state[5] = ENTITY_FREE;
+    e->row[5].state = ENTITY_FREE;
     assert_false(entities_alive(e, 5, 42));
     free(t.memory);
 }
@@ -147,17 +142,17 @@ static void test_position_and_velocity_go_in_and_out(void **state)
     struct vec3 p = entities_position(&t.entities, 3), v = entities_velocity(&t.entities, 3);
     assert_true(p.x == 1.0 && p.y == 2.0 && p.z == 3.0);
     assert_true(v.x == 4.0 && v.y == 5.0 && v.z == 6.0);
-    assert_true(t.entities.y[3] == 2.0 && t.entities.vz[3] == 6.0);
+    assert_true(t.entities.row[3].y == 2.0 && t.entities.row[3].vz == 6.0);
     free(t.memory);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_columns_are_aligned_and_do_not_overlap),
-        cmocka_unit_test(test_bytes_hold_every_row_and_little_more),
-        cmocka_unit_test(test_copy_takes_its_rows_of_every_column_and_no_other),
-        cmocka_unit_test(test_clear_empties_one_row_of_every_column),
+        cmocka_unit_test(test_a_table_has_room_for_its_rows),
+        cmocka_unit_test(test_a_row_has_one_byte_that_is_no_field),
+        cmocka_unit_test(test_copy_takes_its_rows_of_every_field_and_no_other),
+        cmocka_unit_test(test_clear_empties_one_row_of_every_field),
         cmocka_unit_test(test_find_looks_at_used_rows_that_are_not_free),
         cmocka_unit_test(test_a_reference_is_dead_when_the_id_differs),
         cmocka_unit_test(test_position_and_velocity_go_in_and_out),

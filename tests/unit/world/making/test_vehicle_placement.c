@@ -81,12 +81,12 @@ static void test_members_start_in_their_places(void **state)
         assert_int_equal(formation->order_arg, 1);
         check_near(formation->spacing_m, 50.0);
         for (uint32_t i = 0; i < 4; i++) {
-            check_near(e->x[i] - 25000.0, rows[r].x[i]);
-            check_near(e->z[i] - 24000.0, rows[r].z[i]);
-            check_near(e->heading[i], HALF_PI);
-            assert_int_equal(e->order[i], i == 0 ? BEHAVIOUR_PATROL : BEHAVIOUR_FOLLOW);
-            assert_int_equal(e->behaviour[i], e->order[i]);
-            assert_int_equal(e->order_arg[i], i == 0 ? 1 : 0);
+            check_near(e->row[i].x - 25000.0, rows[r].x[i]);
+            check_near(e->row[i].z - 24000.0, rows[r].z[i]);
+            check_near(e->row[i].heading, HALF_PI);
+            assert_int_equal(e->row[i].order, i == 0 ? BEHAVIOUR_PATROL : BEHAVIOUR_FOLLOW);
+            assert_int_equal(e->row[i].behaviour, e->row[i].order);
+            assert_int_equal(e->row[i].order_arg, i == 0 ? 1 : 0);
         }
         fixture_close(&f);
     }
@@ -109,14 +109,14 @@ static void test_who_follows_stands_behind(void **state)
     assert_int_equal(f.view.world.formations[1].first, 6);
     assert_int_equal(f.view.world.formations[1].count, 1);
     for (uint32_t i = 0; i < 5; i++) {
-        check_near(e->x[1 + i], 25000.0);
-        check_near(e->z[1 + i], 24000.0 + 20.0 * i);
-        assert_int_equal(e->flags[1 + i], i < 2 ? ENTITY_FLAG_HOLD_FIRE : ENTITY_FLAG_STAND);
+        check_near(e->row[1 + i].x, 25000.0);
+        check_near(e->row[1 + i].z, 24000.0 + 20.0 * i);
+        assert_int_equal(e->row[1 + i].flags, i < 2 ? ENTITY_FLAG_HOLD_FIRE : ENTITY_FLAG_STAND);
     }
-    assert_int_equal(e->order[1], BEHAVIOUR_IDLE);
-    assert_int_equal(e->order[5], BEHAVIOUR_FOLLOW);
-    assert_int_equal(e->order_arg[5], 0);
-    assert_int_equal(e->order[6], BEHAVIOUR_IDLE);
+    assert_int_equal(e->row[1].order, BEHAVIOUR_IDLE);
+    assert_int_equal(e->row[5].order, BEHAVIOUR_FOLLOW);
+    assert_int_equal(e->row[5].order_arg, 0);
+    assert_int_equal(e->row[6].order, BEHAVIOUR_IDLE);
     fixture_close(&f);
 }
 
@@ -129,9 +129,9 @@ static void test_a_taken_place_gives_one_near_it(void **state)
                      "at = [25000.0, 24000.0]; heading_deg = 0.0; } );");
     struct state now = fixture_state(&f);
     const struct entities *e = &now.entities;
-    double dx = e->x[1] - 25000.0, dz = e->z[1] - 24050.0, off = sqrt(dx * dx + dz * dz);
+    double dx = e->row[1].x - 25000.0, dz = e->row[1].z - 24050.0, off = sqrt(dx * dx + dz * dz);
     assert_true(off > 3.0 && off < 60.0);
-    check_near(e->z[2], 24100.0);
+    check_near(e->row[2].z, 24100.0);
     fixture_close(&f);
 }
 
@@ -163,18 +163,17 @@ static void test_vehicles_stand_on_slopes(void **state)
                      "vehicles = ( { kind = \"tank\"; count = 20; behaviour = \"idle\"; } );");
     struct state now = fixture_state(&f);
     for (uint32_t i = 0; i < 20; i++)
-        steepest = maths_max(steepest, fabs(now.entities.pitch[i]) + fabs(now.entities.roll[i]));
+        steepest =
+            maths_max(steepest, fabs(now.entities.row[i].pitch) + fabs(now.entities.row[i].roll));
     assert_true(steepest > 0.05);
-    double pitch[20], roll[20], y[20];
-    memcpy(pitch, now.entities.pitch, sizeof pitch);
-    memcpy(roll, now.entities.roll, sizeof roll);
-    memcpy(y, now.entities.y, sizeof y);
+    struct entity before[20];
+    memcpy(before, now.entities.row, sizeof before);
     fixture_run(&f, 2);
     now = fixture_state(&f);
     for (uint32_t i = 0; i < 20; i++) {
-        check_near(now.entities.pitch[i], pitch[i]);
-        check_near(now.entities.roll[i], roll[i]);
-        check_near(now.entities.y[i], y[i]);
+        check_near(now.entities.row[i].pitch, before[i].pitch);
+        check_near(now.entities.row[i].roll, before[i].roll);
+        check_near(now.entities.row[i].y, before[i].y);
     }
     fixture_close(&f);
 }
@@ -195,9 +194,9 @@ static void test_edges_of_works_bear_no_vehicle_as_a_plane_does(void **state)
     const struct state now = fixture_state(&f);
     const double y[] = {101.5, 101.5, 100.0};
     for (uint32_t i = 0; i < 3; i++) {
-        check_near(now.entities.y[i], y[i]);
-        check_near(now.entities.pitch[i], 0.0);
-        assert_int_equal(now.entities.flags[i] & ENTITY_FLAG_CHASSIS,
+        check_near(now.entities.row[i].y, y[i]);
+        check_near(now.entities.row[i].pitch, 0.0);
+        assert_int_equal(now.entities.row[i].flags & ENTITY_FLAG_CHASSIS,
                          i == 0 ? ENTITY_FLAG_CHASSIS : 0);
     }
     fixture_close(&f);
@@ -212,10 +211,11 @@ static void test_no_thin_wall_stands_in_a_vehicle(void **state)
                      "vehicles = ( { kind = \"tank\"; at = [25000.0, 25002.3];"
                      " heading_deg = 0.0; behaviour = \"idle\"; } );");
     const struct entities e = fixture_state(&f).entities;
-    const struct mat3 level = rotation_matrix(rotation_of(e.heading[0], 0.0, 0.0));
-    double deep = vehicle_shell_depth(&f.view.world.terrain, NULL, &f.view.world.kinds[e.kind[0]],
-                                      VEHICLE_SHELL_POINTS, entities_position(&e, 0), &level);
-    assert_true(e.flags[0] & ENTITY_FLAG_CHASSIS && deep < 1e-9 && deep > -0.5);
+    const struct mat3 level = rotation_matrix(rotation_of(e.row[0].heading, 0.0, 0.0));
+    double deep =
+        vehicle_shell_depth(&f.view.world.terrain, NULL, &f.view.world.kinds[e.row[0].kind],
+                            VEHICLE_SHELL_POINTS, entities_position(&e, 0), &level);
+    assert_true(e.row[0].flags & ENTITY_FLAG_CHASSIS && deep < 1e-9 && deep > -0.5);
     fixture_close(&f);
 }
 
@@ -239,7 +239,8 @@ static void test_jets_begin_over_what_is_ahead(void **state)
         fixture_open(&f, text);
         const struct entities e = fixture_state(&f).entities;
         for (uint32_t i = 0; i < 60; i++) {
-            double over = e.y[i] - terrain_base_height(&f.view.world.terrain, e.x[i], e.z[i]);
+            double over =
+                e.row[i].y - terrain_base_height(&f.view.world.terrain, e.row[i].x, e.row[i].z);
             assert_true(over > 79.9);
             raised += over > 80.1;
         }

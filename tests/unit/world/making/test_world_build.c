@@ -52,19 +52,20 @@ static void test_vehicle_at_a_place_starts_as_it_was_told(void **state)
     const struct entities *e = &now.entities;
     const struct kind *kind = &f.view.world.kinds[fixture_kind(&f, "jet")];
     assert_int_equal(now.head->used, 1);
-    assert_int_equal(e->id[0], 1);
-    assert_int_equal(e->kind[0], fixture_kind(&f, "jet"));
-    assert_int_equal(e->state[0], ENTITY_ACTIVE);
-    assert_int_equal(e->force[0], FORCE_RED);
-    assert_int_equal(e->behaviour[0], BEHAVIOUR_HOLD);
-    assert_int_equal(e->order[0], BEHAVIOUR_HOLD);
-    assert_int_equal(e->flags[0], ENTITY_FLAG_FIRE_AT_WILL);
-    assert_true(e->x[0] == 25000.0 && e->z[0] == 24000.0 && e->y[0] == 400.0);
-    assert_true(fabs(e->heading[0] - HALF_PI) < 1e-12);
-    assert_true(fabs(e->vx[0] - 250.0) < 1e-9 && e->vy[0] == 0.0 && fabs(e->vz[0]) < 1e-9);
-    assert_true(e->fuel_l[0] == kind->fuel_l);
-    assert_int_equal(e->rounds[0], kind->rounds);
-    assert_int_equal(e->damage[0], DAMAGE_NONE);
+    assert_int_equal(e->row[0].id, 1);
+    assert_int_equal(e->row[0].kind, fixture_kind(&f, "jet"));
+    assert_int_equal(e->row[0].state, ENTITY_ACTIVE);
+    assert_int_equal(e->row[0].force, FORCE_RED);
+    assert_int_equal(e->row[0].behaviour, BEHAVIOUR_HOLD);
+    assert_int_equal(e->row[0].order, BEHAVIOUR_HOLD);
+    assert_int_equal(e->row[0].flags, ENTITY_FLAG_FIRE_AT_WILL);
+    assert_true(e->row[0].x == 25000.0 && e->row[0].z == 24000.0 && e->row[0].y == 400.0);
+    assert_true(fabs(e->row[0].heading - HALF_PI) < 1e-12);
+    assert_true(fabs(e->row[0].vx - 250.0) < 1e-9 && e->row[0].vy == 0.0 &&
+                fabs(e->row[0].vz) < 1e-9);
+    assert_true(e->row[0].fuel_l == kind->fuel_l);
+    assert_int_equal(e->row[0].rounds, kind->rounds);
+    assert_int_equal(e->row[0].damage, DAMAGE_NONE);
     fixture_close(&f);
 }
 
@@ -85,7 +86,7 @@ static void test_every_kind_of_vehicle_spawns_by_name(void **state)
                  KIND_NAME_MAX - 1, kinds[i].name);
         fixture_open(&f, text);
         assert_int_equal(fixture_state(&f).head->vehicles, 1);
-        assert_string_equal(f.view.world.kinds[fixture_state(&f).entities.kind[0]].name,
+        assert_string_equal(f.view.world.kinds[fixture_state(&f).entities.row[0].kind].name,
                             kinds[i].name);
         fixture_close(&f);
     }
@@ -102,14 +103,14 @@ static void test_group_is_placed_in_its_area_and_clear_of_each_other(void **stat
     assert_int_equal(now.head->used, 50);
     for (uint32_t i = 0; i < 50; i++) {
         double low = i < 30 ? 1000.0 : 1100.0;
-        assert_in_range(e->x[i], low, low + 200.0);
-        assert_in_range(e->z[i], low + 1000.0, low + 1200.0);
-        assert_true(e->y[i] == FIXTURE_GROUND_M);
-        assert_true(e->heading[i] >= 0.0 && e->heading[i] < TWO_PI);
+        assert_in_range(e->row[i].x, low, low + 200.0);
+        assert_in_range(e->row[i].z, low + 1000.0, low + 1200.0);
+        assert_true(e->row[i].y == FIXTURE_GROUND_M);
+        assert_true(e->row[i].heading >= 0.0 && e->row[i].heading < TWO_PI);
         for (uint32_t j = 0; j < i; j++) {
-            double dx = e->x[i] - e->x[j], dz = e->z[i] - e->z[j];
-            double gap =
-                f.view.world.kinds[e->kind[i]].radius_m + f.view.world.kinds[e->kind[j]].radius_m;
+            double dx = e->row[i].x - e->row[j].x, dz = e->row[i].z - e->row[j].z;
+            double gap = f.view.world.kinds[e->row[i].kind].radius_m +
+                         f.view.world.kinds[e->row[j].kind].radius_m;
             assert_true(dx * dx + dz * dz > gap * gap);
         }
     }
@@ -131,9 +132,11 @@ static void test_real_shapes_start_clear_of_each_other(void **state)
     const struct entities *e = &now.entities;
     assert_true(tank->level_m > tank->radius_m && tree->level_m > tree->radius_m);
     for (uint32_t i = 0; i < 25; i++) {
-        assert_true(hypot(e->x[i] - 1050.0, e->z[i] - 2050.0) > tank->level_m + tree->level_m);
+        assert_true(hypot(e->row[i].x - 1050.0, e->row[i].z - 2050.0) >
+                    tank->level_m + tree->level_m);
         for (uint32_t j = 0; j < i; j++)
-            assert_true(hypot(e->x[i] - e->x[j], e->z[i] - e->z[j]) > 2.0 * tank->level_m);
+            assert_true(hypot(e->row[i].x - e->row[j].x, e->row[i].z - e->row[j].z) >
+                        2.0 * tank->level_m);
     }
     fixture_close(&f);
 }
@@ -289,8 +292,8 @@ static void test_static_parts_are_copied_whole(void **state)
     assert_int_equal(world->routes[0].count, 3);
     assert_true(world->route_points[2].z == 3000.0);
     struct state now = fixture_state(&f);
-    assert_int_equal(now.entities.behaviour[0], BEHAVIOUR_ROUTE);
-    assert_int_equal(now.entities.order_arg[0], 0); /* its route */
+    assert_int_equal(now.entities.row[0].behaviour, BEHAVIOUR_ROUTE);
+    assert_int_equal(now.entities.row[0].order_arg, 0); /* its route */
     assert_int_equal(world->counts.posts_side, 401);
     assert_true(world->terrain.spacing_m == 125.0);
     assert_true(world->terrain.posts[401 * 401 - 1] == (float)FIXTURE_GROUND_M);
@@ -335,7 +338,7 @@ static void test_land_vehicles_start_on_the_ground(void **state)
     scenario.groups[0].floating = 1;
     scenario.groups[0].altitude_m = 50.0;
     assert_int_equal(world_build_make(&built, &scenario, &error), 0);
-    assert_true(built.first.y[0] == FIXTURE_GROUND_M);
+    assert_true(built.first.row[0].y == FIXTURE_GROUND_M);
     world_build_free(&built);
     scenario_free(&scenario);
 }

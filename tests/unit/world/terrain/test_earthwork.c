@@ -257,8 +257,8 @@ static void test_a_vehicle_drives_up_the_ramp(void **state)
     for (int i = 0; i < 120; i++) {
         fixture_run(&f, 1);
         struct state now = fixture_state(&f);
-        highest = maths_max(highest, now.entities.y[jeep] - FIXTURE_GROUND_M);
-        steepest = maths_max(steepest, now.entities.pitch[jeep]);
+        highest = maths_max(highest, now.entities.row[jeep].y - FIXTURE_GROUND_M);
+        steepest = maths_max(steepest, now.entities.row[jeep].pitch);
     }
     assert_true(highest > 1.5 && steepest > 0.1);
 }

@@ -28,10 +28,11 @@ static double waves(double x, double z, const void *context)
  * course_lift_pose() [m, rad]. */
 static double difference(const struct entities *e, uint32_t row)
 {
-    struct rest_pose pose = course_lift_pose(&f.view.world, &f.stepper.mover.craters, e->kind[row],
-                                             e->x[row], e->z[row], e->heading[row]);
-    double y = fabs(pose.y_m - e->y[row]), pitch = fabs(pose.pitch_rad - e->pitch[row]);
-    return maths_max(y, maths_max(pitch, fabs(pose.roll_rad - e->roll[row])));
+    struct rest_pose pose =
+        course_lift_pose(&f.view.world, &f.stepper.mover.craters, e->row[row].kind, e->row[row].x,
+                         e->row[row].z, e->row[row].heading);
+    double y = fabs(pose.y_m - e->row[row].y), pitch = fabs(pose.pitch_rad - e->row[row].pitch);
+    return maths_max(y, maths_max(pitch, fabs(pose.roll_rad - e->row[row].roll)));
 }
 
 static void test_it_is_the_pose_that_the_mover_gives(void **state)
@@ -56,13 +57,13 @@ static void test_it_is_the_pose_that_the_mover_gives(void **state)
     double steepest = 0.0;
     for (uint32_t row = 0; row < 40; row++) {
         assert_true(difference(&e, row) <= 1e-12);
-        steepest = maths_max(steepest, fabs(e.pitch[row]));
+        steepest = maths_max(steepest, fabs(e.row[row].pitch));
     }
     assert_true(steepest > 0.1);
-    assert_true(crater_offset(&f.stepper.mover.craters, e.x[20], e.z[20]) < -0.5);
+    assert_true(crater_offset(&f.stepper.mover.craters, e.row[20].x, e.row[20].z) < -0.5);
     double ground =
-        terrain_height(&f.view.world.terrain, &f.stepper.mover.craters, e.x[20], e.z[20]);
-    assert_true(e.y[20] > ground + 0.01); /* it stands on its corners */
+        terrain_height(&f.view.world.terrain, &f.stepper.mover.craters, e.row[20].x, e.row[20].z);
+    assert_true(e.row[20].y > ground + 0.01); /* it stands on its corners */
     fixture_close(&f);
 }
 

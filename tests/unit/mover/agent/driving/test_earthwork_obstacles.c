@@ -36,18 +36,18 @@ static double goes_aside(const char *work, const char *kind)
                                                 .heading_rad = HALF_PI,
                                                 .behaviour = BEHAVIOUR_PATROL});
     struct entities e = steps_rows(&f);
-    e.behaviour[row] = e.order[row] = BEHAVIOUR_PATROL;
-    e.goal_x[row] = 25200.0;
-    e.goal_z[row] = 25000.0;
+    e.row[row].behaviour = e.row[row].order = BEHAVIOUR_PATROL;
+    e.row[row].goal_x = 25200.0;
+    e.row[row].goal_z = 25000.0;
     double aside = 0.0, low = 0.0;
-    for (int n = 0; n < 60 * HZ && steps_rows(&f).x[row] < 25150.0; n++) {
+    for (int n = 0; n < 60 * HZ && steps_rows(&f).row[row].x < 25150.0; n++) {
         fixture_run(&f, 1);
         e = steps_rows(&f);
-        aside = maths_max(aside, fabs(e.z[row] - 25000.0));
-        low = maths_max(low, FIXTURE_GROUND_M - e.y[row]);
-        assert_true(e.y[row] - FIXTURE_GROUND_M < 3.0); /* no edge throws it */
+        aside = maths_max(aside, fabs(e.row[row].z - 25000.0));
+        low = maths_max(low, FIXTURE_GROUND_M - e.row[row].y);
+        assert_true(e.row[row].y - FIXTURE_GROUND_M < 3.0); /* no edge throws it */
     }
-    bool across = e.x[row] >= 25150.0 && e.state[row] == ENTITY_ACTIVE && low < 0.5;
+    bool across = e.row[row].x >= 25150.0 && e.row[row].state == ENTITY_ACTIVE && low < 0.5;
     fixture_close(&f);
     return across ? aside : -1.0;
 }

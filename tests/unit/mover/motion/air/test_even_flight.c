@@ -52,9 +52,9 @@ static uint32_t put(const char *kind, double x, double z, double speed_mps)
                                                 .heading_rad = east * HALF_PI,
                                                 .behaviour = BEHAVIOUR_PATROL});
     struct entities e = steps_rows(&f);
-    e.goal_x[row] = 25000.0 + east * 20000.0;
-    e.goal_z[row] = z;
-    e.throttle[row] = 0.75f;
+    e.row[row].goal_x = 25000.0 + east * 20000.0;
+    e.row[row].goal_z = z;
+    e.row[row].throttle = 0.75f;
     return row;
 }
 
@@ -71,7 +71,8 @@ static struct seen watch(uint32_t row, uint32_t frames)
     for (uint32_t n = 0; n < frames; n++) {
         fixture_run(&f, 1);
         const struct state state = fixture_state(&f);
-        const uint32_t tick = (uint32_t)state.head->tick, ends = state.entities.cruise_tick[row];
+        const uint32_t tick = (uint32_t)state.head->tick,
+                       ends = state.entities.row[row].cruise_tick;
         const struct vec3 at = steps_position(&f, row);
         if (!cruise_goes(&state.entities, row, tick))
             continue;
@@ -90,7 +91,7 @@ static void test_a_helicopter_cruises_for_two_seconds(void **state)
     steps_plane(&f, 0.0, 0.0);
     uint32_t row = put("helicopter", 25000.0, 25000.0, FAST);
     fixture_run(&f, 4 * LONGEST);
-    const double fuel_l = steps_rows(&f).fuel_l[row];
+    const double fuel_l = steps_rows(&f).row[row].fuel_l;
     const struct seen seen = watch(row, 10 * LONGEST);
     const struct kind *kind = steps_kind(&f, "helicopter");
     assert_true(seen.begun <= 11 && seen.lengthy >= 9 * LONGEST);
@@ -98,7 +99,7 @@ static void test_a_helicopter_cruises_for_two_seconds(void **state)
     assert_true(fabs(seen.most_m - kind->cruise_altitude_m) < 0.5);
     assert_true(fabs(steps_speed(&f, row) - FAST) < 0.01);
     const double burns_l = 0.75 * kind->fuel_lps * 10.0 * LONGEST / 60.0;
-    assert_true(fabs(fuel_l - steps_rows(&f).fuel_l[row] - burns_l) < 0.2 * burns_l);
+    assert_true(fabs(fuel_l - steps_rows(&f).row[row].fuel_l - burns_l) < 0.2 * burns_l);
 }
 
 /* The slopes are up to 0.375. */
@@ -124,12 +125,12 @@ static bool begins_before_wall(double before_m)
     struct serial_context serial;
     steps_empty(&f);
     uint32_t row = put("jet", WALL_X - before_m, 25000.0, 300.0);
-    steps_rows(&f).y[row] = 138.0;
+    steps_rows(&f).row[row].y = 138.0;
     fixture_run(&f, 1);
     steps_serial_context(&f, &step, &serial);
-    const struct desired_motion desired = {.speed_mps = step.m->vx[row], .altitude_m = 38.0};
-    step.m->y[row] = 138.0;
-    step.m->vy[row] = step.m->pitch[row] = step.m->roll[row] = 0.0;
+    const struct desired_motion desired = {.speed_mps = step.m->row[row].vx, .altitude_m = 38.0};
+    step.m->row[row].y = 138.0;
+    step.m->row[row].vy = step.m->row[row].pitch = step.m->row[row].roll = 0.0;
     return even_flight_begin(&step, row, &desired, 60);
 }
 
@@ -153,7 +154,7 @@ static uint32_t frames_before(double away_m, double up_m)
     f.stepper.mover.decides_every = DECIDES;
     uint32_t row = put("helicopter", 25000.0, 25000.0, FAST);
     uint32_t other = put("helicopter", 25000.0 + away_m, 25000.0, -FAST);
-    steps_rows(&f).y[other] += up_m;
+    steps_rows(&f).row[other].y += up_m;
     fixture_run(&f, 1);
     steps_serial_context(&f, &step, &serial);
     return even_flight_frames(&step, row, LONGEST);

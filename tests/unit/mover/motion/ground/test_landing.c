@@ -43,16 +43,17 @@ static uint32_t put(const char *kind, double height_m, struct vec3 velocity)
 static bool is_down(uint32_t row)
 {
     struct entities e = steps_rows(&f);
-    return e.state[row] == ENTITY_ACTIVE && (e.flags[row] & ENTITY_FLAG_LANDED) != 0;
+    return e.row[row].state == ENTITY_ACTIVE && (e.row[row].flags & ENTITY_FLAG_LANDED) != 0;
 }
 
 static double clearance(uint32_t row)
 {
     struct entities e = steps_rows(&f);
     struct body_points points;
-    body_points_of(&f.view.world, e.kind[row], &points);
-    return body_points_clearance(&f.view.world, NULL, &points, entities_position(&e, row),
-                                 rotation_of(e.heading[row], e.pitch[row], e.roll[row]));
+    body_points_of(&f.view.world, e.row[row].kind, &points);
+    return body_points_clearance(
+        &f.view.world, NULL, &points, entities_position(&e, row),
+        rotation_of(e.row[row].heading, e.row[row].pitch, e.row[row].roll));
 }
 
 static void test_with_collective_down_a_helicopter_lands_softly(void **state)
@@ -61,18 +62,18 @@ static void test_with_collective_down_a_helicopter_lands_softly(void **state)
     double touched_mps = 0.0;
     (void)state;
     for (int frame = 0; frame < (int)(40.0 * HZ) && !is_down(row); frame++) {
-        touched_mps = -steps_rows(&f).vy[row];
+        touched_mps = -steps_rows(&f).row[row].vy;
         steps_drive(&f, row, 0.0, 0.0, -1.0);
     }
     print_message("touches down with %.2f m/s\n", touched_mps);
     assert_true(is_down(row) && touched_mps > 0.3 && touched_mps < 2.5);
     seconds(4.0);
     struct entities e = steps_rows(&f);
-    double x = e.x[row], y = e.y[row], z = e.z[row];
+    double x = e.row[row].x, y = e.row[row].y, z = e.row[row].z;
     seconds(60.0);
-    assert_true(is_down(row) && e.x[row] == x && e.y[row] == y && e.z[row] == z);
+    assert_true(is_down(row) && e.row[row].x == x && e.row[row].y == y && e.row[row].z == z);
     assert_true(steps_speed(&f, row) == 0.0 && fabs(clearance(row)) < 0.02);
-    assert_true(e.harm_j[row] == 0.0 && e.damage[row] == DAMAGE_NONE);
+    assert_true(e.row[row].harm_j == 0.0 && e.row[row].damage == DAMAGE_NONE);
     assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 0);
 }
 
@@ -85,16 +86,16 @@ static void test_it_takes_off_again(void **state)
     seconds(20.0);
     assert_true(is_down(row));
     for (int frame = 0; frame < (int)(15.0 * HZ); frame++) {
-        double before = steps_rows(&f).vy[row];
+        double before = steps_rows(&f).row[row].vy;
         steps_drive(&f, row, 0.0, 0.0, 0.5);
-        hardest = maths_max(hardest, fabs(steps_rows(&f).vy[row] - before) * HZ);
+        hardest = maths_max(hardest, fabs(steps_rows(&f).row[row].vy - before) * HZ);
         begun_s += clearance(row) < 0.05 ? 1.0 / HZ : 0.0;
     }
     print_message("lifts off after %.1f s, hardest acceleration %.1f m/s2\n", begun_s, hardest);
     assert_false(is_down(row));
     assert_true(clearance(row) > 20.0 && hardest < 0.65 * GRAVITY_MPS2);
     assert_true(begun_s > 0.5 && begun_s < 3.0); /* the engine spools up */
-    assert_true(steps_rows(&f).damage[row] == DAMAGE_NONE);
+    assert_true(steps_rows(&f).row[row].damage == DAMAGE_NONE);
 }
 
 static void test_the_sink_rate_decides_on_the_harm(void **state)
@@ -109,13 +110,13 @@ static void test_the_sink_rate_decides_on_the_harm(void **state)
         steps_empty(&f);
         uint32_t row = put("helicopter", 0.02, (struct vec3){0.0, -fall[n].sink_mps, 0.0});
         struct entities e = steps_rows(&f);
-        e.behaviour[row] = BEHAVIOUR_DRIVEN;
-        e.until_tick[row] = UINT32_MAX;
-        e.climb[row] = -1.0f;
+        e.row[row].behaviour = BEHAVIOUR_DRIVEN;
+        e.row[row].until_tick = UINT32_MAX;
+        e.row[row].climb = -1.0f;
         seconds(10.0);
         e = steps_rows(&f);
-        print_message("| sinks with %4.1f m/s: damage %d |\n", fall[n].sink_mps, e.damage[row]);
-        assert_int_equal(e.damage[row], fall[n].damage);
+        print_message("| sinks with %4.1f m/s: damage %d |\n", fall[n].sink_mps, e.row[row].damage);
+        assert_int_equal(e.row[row].damage, fall[n].damage);
         assert_int_equal(fixture_event_count(&f, EVENT_COLLISION) > 0, n > 1);
         assert_true(is_down(row) == (n < 5));
     }
@@ -125,10 +126,10 @@ static void test_an_agents_helicopter_takes_off_when_it_can(void **state)
 {
     uint32_t row = put("helicopter", 0.02, (struct vec3){0.0, -1.0, 0.0});
     (void)state;
-    steps_rows(&f).fuel_l[row] = 0.0; /* it cannot climb */
+    steps_rows(&f).row[row].fuel_l = 0.0; /* it cannot climb */
     seconds(3.0);
     assert_true(is_down(row));
-    steps_rows(&f).fuel_l[row] = 1000.0; /* now its agent wants its usual height */
+    steps_rows(&f).row[row].fuel_l = 1000.0; /* now its agent wants its usual height */
     seconds(20.0);
     assert_false(is_down(row));
     assert_true(clearance(row) > 20.0);
@@ -146,7 +147,7 @@ static void test_on_a_slope_it_rests_and_on_a_steep_one_it_does_not(void **state
         seconds(40.0);
         assert_true(is_down(row) == (n == 0));
         assert_true(n == 1 || (steps_speed(&f, row) == 0.0 && fabs(clearance(row)) < 0.02));
-        assert_true(n == 0 || steps_rows(&f).state[row] == ENTITY_WRECK);
+        assert_true(n == 0 || steps_rows(&f).row[row].state == ENTITY_WRECK);
     }
     steps_plane(&f, 0.0, 0.0);
 }
@@ -165,11 +166,11 @@ static void test_a_jet_slides_on_its_belly(void **state)
         struct vec3 change = vec3_sub(entities_velocity(&e, row), before);
         hardest = maths_max(hardest, vec3_length(change) * HZ / GRAVITY_MPS2);
     }
-    double slid = steps_rows(&f).x[row] - 25000.0;
+    double slid = steps_rows(&f).row[row].x - 25000.0;
     print_message("| belly landing with 85 m/s: slides %.0f m, hardest %.1f g |\n", slid, hardest);
     assert_true(is_down(row) && steps_speed(&f, row) == 0.0);
     assert_true(slid > 200.0 && slid < 900.0 && hardest < 8.0);
-    assert_true(steps_rows(&f).damage[row] >= DAMAGE_MED);
+    assert_true(steps_rows(&f).row[row].damage >= DAMAGE_MED);
     steps_drive(&f, row, 1.0, 0.0, 1.0); /* it does not fly again */
     seconds(5.0);
     assert_true(steps_speed(&f, row) == 0.0);
@@ -182,7 +183,7 @@ static void test_water_is_no_place_to_land(void **state)
     steps_cover(&f, COVER_LAKE, 24000.0, 24000.0, 26000.0, 26000.0);
     steps_drive(&f, row, 0.0, 0.0, -1.0);
     seconds(20.0);
-    assert_int_equal(steps_rows(&f).state[row], ENTITY_WRECK);
+    assert_int_equal(steps_rows(&f).row[row].state, ENTITY_WRECK);
     steps_cover(&f, COVER_GRASS, 24000.0, 24000.0, 26000.0, 26000.0);
 }
 
@@ -194,7 +195,7 @@ static void test_a_truck_pushes_a_landed_helicopter(void **state)
     steps_drive(&f, row, 0.0, 0.0, -1.0);
     seconds(5.0);
     assert_true(is_down(row));
-    double x = steps_rows(&f).x[row];
+    double x = steps_rows(&f).row[row].x;
     uint32_t truck =
         fixture_put(&f, (struct fixture_entity){.kind = "truck",
                                                 .at = {24975.0, FIXTURE_GROUND_M, 25000.0},
@@ -209,7 +210,7 @@ static void test_a_truck_pushes_a_landed_helicopter(void **state)
     seconds(10.0);
     struct entities e = steps_rows(&f);
     assert_true(fixture_event_count(&f, EVENT_COLLISION) > 0);
-    assert_true(fabs(e.x[row] - x) > 0.01 && fabs(clearance(row)) < 0.05);
+    assert_true(fabs(e.row[row].x - x) > 0.01 && fabs(clearance(row)) < 0.05);
     assert_true(steps_speed(&f, row) < 0.05);
 }
 

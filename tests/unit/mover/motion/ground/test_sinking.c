@@ -28,15 +28,15 @@ static uint32_t put_wreck(const char *kind, double height, double speed_mps)
                                                 .at = {24000.0, FIXTURE_GROUND_M + height, 25000.0},
                                                 .velocity = {speed_mps, 0.0, 0.0},
                                                 .heading_rad = HALF_PI});
-    steps_rows(&f).state[row] = ENTITY_WRECK;
+    steps_rows(&f).row[row].state = ENTITY_WRECK;
     return row;
 }
 
 static bool still(uint32_t row)
 {
     struct entities e = steps_rows(&f);
-    return vec3_length(entities_velocity(&e, row)) == 0.0 && e.until_tick[row] != 0 &&
-           e.until_tick[row] <= fixture_state(&f).head->tick;
+    return vec3_length(entities_velocity(&e, row)) == 0.0 && e.row[row].until_tick != 0 &&
+           e.row[row].until_tick <= fixture_state(&f).head->tick;
 }
 
 static void test_a_ships_wreck_settles_slowly(void **state)
@@ -46,17 +46,17 @@ static void test_a_ships_wreck_settles_slowly(void **state)
     (void)state;
     for (int frame = 0; frame < (int)(20.0 * HZ); frame++) {
         fixture_run(&f, 1);
-        double y = steps_rows(&f).y[row];
+        double y = steps_rows(&f).row[row].y;
         assert_true(y <= before && before - y < 0.2 / HZ);
         before = y;
     }
     assert_true(before < FIXTURE_GROUND_M - 0.1);
     fixture_run(&f, (uint32_t)(200.0 * HZ));
-    double deep = FIXTURE_GROUND_M - steps_rows(&f).y[row];
+    double deep = FIXTURE_GROUND_M - steps_rows(&f).row[row].y;
     assert_true(still(row) && deep > 0.1 && deep < steps_kind(&f, "ship")->height_m);
-    before = steps_rows(&f).y[row];
+    before = steps_rows(&f).row[row].y;
     fixture_run(&f, (uint32_t)(5.0 * HZ));
-    assert_true(steps_rows(&f).y[row] == before);
+    assert_true(steps_rows(&f).row[row].y == before);
 }
 
 static void test_an_aircrafts_wreck_ditches_slows_and_goes_under(void **state)
@@ -67,22 +67,22 @@ static void test_an_aircrafts_wreck_ditches_slows_and_goes_under(void **state)
     for (int s = 0; s < 300 && !still(row); s++)
         fixture_run(&f, (uint32_t)HZ);
     assert_true(still(row));
-    assert_true(steps_rows(&f).y[row] + bound < FIXTURE_GROUND_M);
-    assert_true(steps_rows(&f).x[row] > 24020.0 && steps_rows(&f).x[row] < 24600.0);
+    assert_true(steps_rows(&f).row[row].y + bound < FIXTURE_GROUND_M);
+    assert_true(steps_rows(&f).row[row].x > 24020.0 && steps_rows(&f).row[row].x < 24600.0);
     /* What wakes it does not bring it up again. */
-    double deep = steps_rows(&f).y[row];
-    steps_rows(&f).until_tick[row] = 0;
+    double deep = steps_rows(&f).row[row].y;
+    steps_rows(&f).row[row].until_tick = 0;
     fixture_run(&f, (uint32_t)(10.0 * HZ));
-    assert_true(still(row) && steps_rows(&f).y[row] == deep);
+    assert_true(still(row) && steps_rows(&f).row[row].y == deep);
 }
 
 static void test_on_land_nothing_sinks(void **state)
 {
     uint32_t row = put_wreck("helicopter", 5.0, 0.0);
     (void)state;
-    steps_rows(&f).x[row] = 20000.0;
+    steps_rows(&f).row[row].x = 20000.0;
     fixture_run(&f, (uint32_t)(60.0 * HZ));
-    assert_true(still(row) && steps_rows(&f).y[row] > FIXTURE_GROUND_M);
+    assert_true(still(row) && steps_rows(&f).row[row].y > FIXTURE_GROUND_M);
 }
 
 int main(void)

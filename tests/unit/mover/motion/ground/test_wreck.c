@@ -28,8 +28,8 @@ static uint32_t put(const char *kind, double y, struct vec3 velocity)
         &f,
         (struct fixture_entity){.kind = kind, .at = {25000.0, y, 25000.0}, .velocity = velocity});
     struct entities e = steps_rows(&f);
-    e.state[row] = ENTITY_WRECK;
-    e.behaviour[row] = e.order[row] = BEHAVIOUR_IDLE;
+    e.row[row].state = ENTITY_WRECK;
+    e.row[row].behaviour = e.row[row].order = BEHAVIOUR_IDLE;
     return row;
 }
 
@@ -41,29 +41,30 @@ static double friction_of(const char *kind)
 static double spin_of(uint32_t row)
 {
     struct entities e = steps_rows(&f);
-    return vec3_length((struct vec3){e.spin_x[row], e.spin_y[row], e.spin_z[row]});
+    return vec3_length((struct vec3){e.row[row].spin_x, e.row[row].spin_y, e.row[row].spin_z});
 }
 
 static double clearance_of(uint32_t row)
 {
     struct entities e = steps_rows(&f);
     struct body_points points;
-    body_points_of(&f.view.world, e.kind[row], &points);
-    return body_points_clearance(&f.view.world, &f.stepper.mover.craters, &points,
-                                 entities_position(&e, row),
-                                 rotation_of(e.heading[row], e.pitch[row], e.roll[row]));
+    body_points_of(&f.view.world, e.row[row].kind, &points);
+    return body_points_clearance(
+        &f.view.world, &f.stepper.mover.craters, &points, entities_position(&e, row),
+        rotation_of(e.row[row].heading, e.row[row].pitch, e.row[row].roll));
 }
 
 static bool rests(uint32_t row)
 {
-    return steps_speed(&f, row) == 0.0 && spin_of(row) == 0.0 && steps_rows(&f).vy[row] == 0.0;
+    return steps_speed(&f, row) == 0.0 && spin_of(row) == 0.0 && steps_rows(&f).row[row].vy == 0.0;
 }
 
 /* How far its up axis is from the vertical. */
 static double tilt_of(uint32_t row)
 {
     struct entities e = steps_rows(&f);
-    struct mat3 turn = rotation_matrix(rotation_of(e.heading[row], e.pitch[row], e.roll[row]));
+    struct mat3 turn =
+        rotation_matrix(rotation_of(e.row[row].heading, e.row[row].pitch, e.row[row].roll));
     return maths_atan2(sqrt(1.0 - turn.m[1][1] * turn.m[1][1]), turn.m[1][1]);
 }
 
@@ -74,11 +75,12 @@ static void test_a_wreck_slides_to_rest_by_friction(void **state)
     double way = 15.0 * 15.0 / (2.0 * friction_of("tank") * GRAVITY_MPS2);
     fixture_run(&f, 5 * HZ);
     struct entities e = steps_rows(&f);
-    double slid = sqrt((e.x[row] - 25000.0) * (e.x[row] - 25000.0) +
-                       (e.z[row] - 25000.0) * (e.z[row] - 25000.0));
+    double slid = sqrt((e.row[row].x - 25000.0) * (e.row[row].x - 25000.0) +
+                       (e.row[row].z - 25000.0) * (e.row[row].z - 25000.0));
     assert_true(rests(row) && tilt_of(row) < 0.01);
     assert_true(slid > 0.85 * way && slid < 1.02 * way); /* ploughing takes a little */
-    assert_true(fabs((e.x[row] - 25000.0) * 9.0 - (e.z[row] - 25000.0) * 12.0) < 0.2 * slid);
+    assert_true(fabs((e.row[row].x - 25000.0) * 9.0 - (e.row[row].z - 25000.0) * 12.0) <
+                0.2 * slid);
 }
 
 static void test_a_vehicle_that_is_destroyed_in_place_keeps_its_pose(void **state)
@@ -86,31 +88,33 @@ static void test_a_vehicle_that_is_destroyed_in_place_keeps_its_pose(void **stat
     (void)state;
     uint32_t row = put("tank", 100.0, (struct vec3){0.0, 0.0, 0.0});
     steps_plane(&f, 0.3, 0.0);
-    steps_rows(&f).heading[row] = HALF_PI;
-    steps_rows(&f).pitch[row] = maths_atan2(0.3, 1.0);
+    steps_rows(&f).row[row].heading = HALF_PI;
+    steps_rows(&f).row[row].pitch = maths_atan2(0.3, 1.0);
     fixture_run(&f, HZ);
     struct entities e = steps_rows(&f);
     assert_true(rests(row));
-    assert_true(fabs(e.x[row] - 25000.0) < 0.005 && fabs(e.y[row] - 100.0) < 0.005);
-    assert_true(fabs(e.pitch[row] - maths_atan2(0.3, 1.0)) < 0.001 && fabs(e.roll[row]) < 0.001);
+    assert_true(fabs(e.row[row].x - 25000.0) < 0.005 && fabs(e.row[row].y - 100.0) < 0.005);
+    assert_true(fabs(e.row[row].pitch - maths_atan2(0.3, 1.0)) < 0.001 &&
+                fabs(e.row[row].roll) < 0.001);
 }
 
 static void test_a_wreck_at_rest_stays_to_the_bit(void **state)
 {
     (void)state;
     uint32_t row = put("helicopter", 130.0, (struct vec3){20.0, 0.0, 0.0});
-    steps_rows(&f).spin_x[row] = 2.0;
+    steps_rows(&f).row[row].spin_x = 2.0;
     fixture_run(&f, 20 * HZ);
     struct entities e = steps_rows(&f);
     struct vec3 at = entities_position(&e, row);
-    double heading = e.heading[row], pitch = e.pitch[row], roll = e.roll[row];
-    uint32_t until = e.until_tick[row];
+    double heading = e.row[row].heading, pitch = e.row[row].pitch, roll = e.row[row].roll;
+    uint32_t until = e.row[row].until_tick;
     assert_true(rests(row) && until != 0);
     fixture_run(&f, 5 * HZ);
     e = steps_rows(&f);
-    assert_true(e.x[row] == at.x && e.y[row] == at.y && e.z[row] == at.z);
-    assert_true(e.heading[row] == heading && e.pitch[row] == pitch && e.roll[row] == roll);
-    assert_int_equal(e.until_tick[row], until);
+    assert_true(e.row[row].x == at.x && e.row[row].y == at.y && e.row[row].z == at.z);
+    assert_true(e.row[row].heading == heading && e.row[row].pitch == pitch &&
+                e.row[row].roll == roll);
+    assert_int_equal(e.row[row].until_tick, until);
 }
 
 /* Kinetic and potential energy by the velocity of the position [J/kg]; the wreck does not spin. */
@@ -118,7 +122,7 @@ static double energy_of(uint32_t row)
 {
     struct entities e = steps_rows(&f);
     struct vec3 v = entities_velocity(&e, row);
-    return 0.5 * vec3_dot(v, v) + GRAVITY_MPS2 * e.y[row];
+    return 0.5 * vec3_dot(v, v) + GRAVITY_MPS2 * e.row[row].y;
 }
 
 /* v = V tanh(g t / V), fallen by V^2 / g ln cosh(g t / V), with the terminal speed V. */
@@ -141,8 +145,8 @@ static void test_the_air_slows_a_wreck_at_any_rate(void **state)
             assert_true(energy_of(row) <= before + 1e-9);
         }
         double fallen = terminal * terminal / GRAVITY_MPS2 * log(cosh(turns));
-        assert_true(fabs(-steps_rows(&f).vy[row] / (terminal * tanh(turns)) - 1.0) < 0.01);
-        assert_true(fabs((1500.0 - steps_rows(&f).y[row]) / fallen - 1.0) < 0.01);
+        assert_true(fabs(-steps_rows(&f).row[row].vy / (terminal * tanh(turns)) - 1.0) < 0.01);
+        assert_true(fabs((1500.0 - steps_rows(&f).row[row].y) / fallen - 1.0) < 0.01);
     }
 }
 
@@ -156,9 +160,9 @@ static void test_the_air_slows_a_spin(void **state)
         fixture_close(&f);
         fixture_open(&f, rates[n]);
         uint32_t row = put("jet", 1500.0, (struct vec3){0.0, 0.0, 0.0});
-        steps_rows(&f).spin_y[row] = 20.0;
+        steps_rows(&f).row[row].spin_y = 20.0;
         fixture_run(&f, (uint32_t)(4.0 * f.view.world.params->hz));
-        left[n] = fabs(steps_rows(&f).spin_y[row]);
+        left[n] = fabs(steps_rows(&f).row[row].spin_y);
         print_message("jet: 20 -> %.2f rad/s\n", left[n]);
         assert_true(left[n] > 14.0 && left[n] < 16.0);
     }
@@ -178,9 +182,9 @@ static void test_drag_fits_the_kind_and_its_pose(void **state)
     for (size_t n = 0; n < sizeof wrecks / sizeof *wrecks; n++) {
         steps_empty(&f);
         uint32_t row = put(wrecks[n].kind, 1500.0, (struct vec3){200.0, 0.0, 0.0});
-        steps_rows(&f).heading[row] = wrecks[n].heading_rad;
+        steps_rows(&f).row[row].heading = wrecks[n].heading_rad;
         fixture_run(&f, 3 * HZ);
-        double speed = steps_rows(&f).vx[row];
+        double speed = steps_rows(&f).row[row].vx;
         print_message("%s: 200 -> %.1f m/s\n", wrecks[n].kind, speed);
         assert_true(speed > wrecks[n].least_mps && speed < wrecks[n].most_mps);
     }
@@ -194,12 +198,12 @@ static void test_a_wreck_that_is_lifted_out_of_the_ground_gains_no_speed(void **
     fixture_close(&f);
     fixture_open(&f, "world = { hz = 10.0; };");
     uint32_t row = put("jeep", 100.0002, (struct vec3){0.0, 0.0, 0.0});
-    steps_rows(&f).pitch[row] = 0.0064;
-    steps_rows(&f).roll[row] = -0.0239;
+    steps_rows(&f).row[row].pitch = 0.0064;
+    steps_rows(&f).row[row].roll = -0.0239;
     for (uint32_t frame = 0; frame < 20; frame++) {
-        double before = energy_of(row), y = steps_rows(&f).y[row];
+        double before = energy_of(row), y = steps_rows(&f).row[row].y;
         fixture_run(&f, 1);
-        double lifted = GRAVITY_MPS2 * maths_max(0.0, steps_rows(&f).y[row] - y);
+        double lifted = GRAVITY_MPS2 * maths_max(0.0, steps_rows(&f).row[row].y - y);
         assert_true(energy_of(row) <= before + lifted + 1e-4);
     }
     assert_true(rests(row));
@@ -209,15 +213,15 @@ static void test_a_wreck_does_not_snap_into_the_slope_of_the_ground(void **state
 {
     (void)state;
     uint32_t row = put("helicopter", 110.0, (struct vec3){0.0, 0.0, 0.0});
-    steps_rows(&f).pitch[row] = -0.98;
-    steps_rows(&f).roll[row] = 2.36;
+    steps_rows(&f).row[row].pitch = -0.98;
+    steps_rows(&f).row[row].roll = 2.36;
     for (uint32_t frame = 0; frame < 20 * HZ && !rests(row); frame++) {
         struct entities e = steps_rows(&f);
-        struct quat before = rotation_of(e.heading[row], e.pitch[row], e.roll[row]);
+        struct quat before = rotation_of(e.row[row].heading, e.row[row].pitch, e.row[row].roll);
         double spin = spin_of(row);
         fixture_run(&f, 1);
         e = steps_rows(&f);
-        struct quat after = rotation_of(e.heading[row], e.pitch[row], e.roll[row]);
+        struct quat after = rotation_of(e.row[row].heading, e.row[row].pitch, e.row[row].roll);
         assert_true(rotation_rate(before, after) < maths_max(spin, spin_of(row)) / HZ + 0.2);
         assert_true(clearance_of(row) > -0.05);
     }
@@ -238,8 +242,8 @@ static void test_a_wreck_that_leaves_a_bank_gets_no_deeper(void **state)
 {
     (void)state;
     uint32_t row = put("truck", 101.2, (struct vec3){-1.0, -0.5, 0.0});
-    steps_rows(&f).heading[row] = 0.0;
-    steps_rows(&f).x[row] = 25000.4 - 0.5 * steps_kind(&f, "truck")->width_m;
+    steps_rows(&f).row[row].heading = 0.0;
+    steps_rows(&f).row[row].x = 25000.4 - 0.5 * steps_kind(&f, "truck")->width_m;
     double before = clearance_of(row);
     assert_true(before < -0.29);
     for (uint32_t frame = 0; frame < 20; frame++) {
@@ -257,9 +261,9 @@ static void test_a_wreck_at_rest_is_lifted_slowly_out_of_the_ground(void **state
     (void)state;
     uint32_t row = put("truck", 99.7, (struct vec3){0.0, 0.0, 0.0});
     for (uint32_t frame = 0; frame < 45 * HZ; frame++) {
-        double y = steps_rows(&f).y[row];
+        double y = steps_rows(&f).row[row].y;
         fixture_run(&f, 1);
-        assert_true(steps_rows(&f).y[row] - y < 0.0081 / HZ);
+        assert_true(steps_rows(&f).row[row].y - y < 0.0081 / HZ);
     }
     assert_true(rests(row) && clearance_of(row) > -0.02);
 }
@@ -272,12 +276,12 @@ static void test_overturned_is_overturned(void **state)
         steps_empty(&f);
         const struct kind *kind = steps_kind(&f, "truck");
         uint32_t row = put("truck", 0.0, (struct vec3){0.0, 0.0, 0.0});
-        steps_rows(&f).roll[row] = rolls[n];
-        steps_rows(&f).y[row] = 0.2 - clearance_of(row);
+        steps_rows(&f).row[row].roll = rolls[n];
+        steps_rows(&f).row[row].y = 0.2 - clearance_of(row);
         fixture_run(&f, 5 * HZ);
         assert_true(rests(row) && fabs(tilt_of(row) - fabs(rolls[n])) < 0.05);
         double height = n == 0 ? kind->height_m : 0.5 * kind->width_m;
-        assert_true(fabs(steps_rows(&f).y[row] - 100.0 - height) < 0.05);
+        assert_true(fabs(steps_rows(&f).row[row].y - 100.0 - height) < 0.05);
     }
 }
 
@@ -289,7 +293,7 @@ static void test_a_jet_ploughs_to_a_halt_within_a_kilometre(void **state)
         fixture_run(&f, 1);
         assert_true(clearance_of(row) > -0.6);
     }
-    double slid = steps_rows(&f).x[row] - 25000.0;
+    double slid = steps_rows(&f).row[row].x - 25000.0;
     assert_true(rests(row) && slid > 150.0 && slid < 1000.0);
 }
 
@@ -301,13 +305,13 @@ static void test_friction_holds_a_wreck_on_a_slope_or_lets_it_go(void **state)
         steps_empty(&f);
         steps_plane(&f, slope, 0.0);
         uint32_t row = put("tank", 100.0, (struct vec3){0.0, 0.0, 0.0});
-        steps_rows(&f).heading[row] = HALF_PI;
-        steps_rows(&f).pitch[row] = maths_atan2(slope, 1.0);
+        steps_rows(&f).row[row].heading = HALF_PI;
+        steps_rows(&f).row[row].pitch = maths_atan2(slope, 1.0);
         fixture_run(&f, 2 * HZ);
-        double from = steps_rows(&f).x[row];
+        double from = steps_rows(&f).row[row].x;
         assert_true(fabs(from - 25000.0) < 0.01 || n == 1);
         fixture_run(&f, 8 * HZ);
-        double moved = from - steps_rows(&f).x[row];
+        double moved = from - steps_rows(&f).row[row].x;
         assert_true(n == 0 ? moved == 0.0 && rests(row) : moved > 5.0);
     }
 }
@@ -324,10 +328,10 @@ static void test_a_crater_and_a_push_wake_a_wreck(void **state)
     fixture_run(&f, 5 * HZ);
     assert_int_equal(fixture_state(&f).head->crater_count, 1);
     assert_true(rests(row) && clearance_of(row) > -0.02 && tilt_of(row) > 0.03);
-    struct vec3 at = {steps_rows(&f).x[row], 0.0, steps_rows(&f).z[row]};
-    steps_rows(&f).vz[row] = 8.0;
+    struct vec3 at = {steps_rows(&f).row[row].x, 0.0, steps_rows(&f).row[row].z};
+    steps_rows(&f).row[row].vz = 8.0;
     fixture_run(&f, 5 * HZ);
-    assert_true(rests(row) && steps_rows(&f).z[row] > at.z + 1.0);
+    assert_true(rests(row) && steps_rows(&f).row[row].z > at.z + 1.0);
 }
 
 static void test_a_light_push_does_not_wake_a_wreck(void **state)
@@ -338,10 +342,10 @@ static void test_a_light_push_does_not_wake_a_wreck(void **state)
         steps_empty(&f);
         uint32_t row = put("tank", 100.0, (struct vec3){0.0, 0.0, 0.0});
         fixture_run(&f, 2 * HZ);
-        double from = steps_rows(&f).z[row];
-        steps_rows(&f).vz[row] = speeds[n];
+        double from = steps_rows(&f).row[row].z;
+        steps_rows(&f).row[row].vz = speeds[n];
         fixture_run(&f, 1);
-        assert_true(rests(row) && (steps_rows(&f).z[row] == from) == (n == 0));
+        assert_true(rests(row) && (steps_rows(&f).row[row].z == from) == (n == 0));
     }
 }
 
@@ -349,7 +353,7 @@ static void test_a_light_push_does_not_wake_a_wreck(void **state)
 
 static bool is_broken(uint32_t row)
 {
-    return steps_rows(&f).flags[row] & ENTITY_FLAG_BROKEN;
+    return steps_rows(&f).row[row].flags & ENTITY_FLAG_BROKEN;
 }
 
 static struct vec3 fallen; /* the velocity before the frame in which it broke */
@@ -358,7 +362,7 @@ static uint32_t drop(const char *kind, struct vec3 velocity)
 {
     steps_empty(&f);
     uint32_t row = put(kind, 0.0, velocity);
-    steps_rows(&f).y[row] = 1.0 - clearance_of(row);
+    steps_rows(&f).row[row].y = 1.0 - clearance_of(row);
     for (uint32_t frame = 0; frame < HZ && !is_broken(row); frame++) {
         struct entities e = steps_rows(&f);
         fallen = entities_velocity(&e, row);
@@ -372,8 +376,8 @@ static void test_an_aircraft_that_strikes_the_ground_hard_breaks_up(void **state
     (void)state;
     uint32_t row = drop("jet", (struct vec3){200.0, -40.0, 0.0});
     assert_true(is_broken(row));
-    assert_int_equal(steps_rows(&f).trigger[row], 0);
-    assert_int_equal(steps_rows(&f).changed_tick[row], fixture_state(&f).head->tick);
+    assert_int_equal(steps_rows(&f).row[row].trigger, 0);
+    assert_int_equal(steps_rows(&f).row[row].changed_tick, fixture_state(&f).head->tick);
     assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 1);
     const struct event_collision *hit = &fixture_event(&f, EVENT_COLLISION, 0)->collision;
     assert_int_equal(hit->a.id, row + 1);
@@ -404,8 +408,8 @@ static void test_pieces_stop_sooner_and_gain_no_energy(void **state)
     for (int n = 0; n < 2; n++) {
         steps_empty(&f);
         uint32_t row = put("jet", 0.0, (struct vec3){150.0, 0.0, 0.0});
-        steps_rows(&f).flags[row] = n == 0 ? 0 : ENTITY_FLAG_BROKEN;
-        steps_rows(&f).y[row] = 0.05 - clearance_of(row);
+        steps_rows(&f).row[row].flags = n == 0 ? 0 : ENTITY_FLAG_BROKEN;
+        steps_rows(&f).row[row].y = 0.05 - clearance_of(row);
         double before = energy_of(row);
         for (uint32_t frame = 0; frame < 30 * HZ && !rests(row); frame++) {
             fixture_run(&f, 1);
@@ -413,7 +417,7 @@ static void test_pieces_stop_sooner_and_gain_no_energy(void **state)
             before = energy_of(row);
         }
         assert_true(rests(row));
-        slid[n] = steps_rows(&f).x[row] - 25000.0;
+        slid[n] = steps_rows(&f).row[row].x - 25000.0;
     }
     /* ln(1 + b v2 / mu) / (2 b g), but for what tumbling takes */
     double b = 1.25e-3, mu = friction_of("jet");
@@ -426,12 +430,13 @@ static void test_a_ship_drifts_on_the_water_and_sinks(void **state)
     (void)state;
     steps_cover(&f, COVER_LAKE, 0.0, 0.0, 50000.0, 50000.0);
     uint32_t row = put("ship", 100.0, (struct vec3){6.0, 0.0, 0.0});
-    steps_rows(&f).spin_y[row] = 0.2;
+    steps_rows(&f).row[row].spin_y = 0.2;
     fixture_run(&f, 120 * HZ);
     struct entities e = steps_rows(&f);
-    assert_true(rests(row) && e.y[row] < 99.0 && e.pitch[row] == 0.0 && e.roll[row] == 0.0);
-    assert_true(fabs(e.x[row] - 25000.0 - 36.0 / (2.0 * 0.03 * GRAVITY_MPS2)) < 1.0);
-    assert_true(e.until_tick[row] != 0);
+    assert_true(rests(row) && e.row[row].y < 99.0 && e.row[row].pitch == 0.0 &&
+                e.row[row].roll == 0.0);
+    assert_true(fabs(e.row[row].x - 25000.0 - 36.0 / (2.0 * 0.03 * GRAVITY_MPS2)) < 1.0);
+    assert_true(e.row[row].until_tick != 0);
 }
 
 int main(void)

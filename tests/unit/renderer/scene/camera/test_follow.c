@@ -48,17 +48,17 @@ static void test_follow_keeps_its_choice(void **context)
     struct follow follow = {.id = 0};
     put_tank(s, 10000.0, 10000.0, 0.0);
     uint32_t moving = put_tank(s, 20000.0, 20000.0, 0.0);
-    s->entities.vx[moving] = 10.0;
+    s->entities.row[moving].vx = 10.0;
     assert_int_equal(follow_choose(&follow, &s->frame_view, &s->effects, 0, false), moving);
-    s->entities.vx[moving] = 0.0;
-    s->entities.vx[0] = 10.0;
+    s->entities.row[moving].vx = 0.0;
+    s->entities.row[0].vx = 10.0;
     s->head.tick = 50; /* after 5 s it is kept, though another is livelier */
     assert_int_equal(follow_choose(&follow, &s->frame_view, &s->effects, 0, false), moving);
     s->head.tick = 200;
     assert_int_equal(follow_choose(&follow, &s->frame_view, &s->effects, 0, false), 0);
     assert_int_equal(follow_choose(&follow, &s->frame_view, &s->effects, 2, false), 1);
-    s->entities.state[1] = ENTITY_WRECK;
-    s->entities.changed_tick[1] = 200;
+    s->entities.row[1].state = ENTITY_WRECK;
+    s->entities.row[1].changed_tick = 200;
     struct follow nobody = {.id = 0}; /* a renderer that has just started also sees it burn */
     assert_int_equal(follow_choose(&nobody, &s->frame_view, &s->effects, 2, false), 1);
     assert_int_equal(follow_choose(&follow, &s->frame_view, &s->effects, 2, false), 1);
@@ -76,28 +76,28 @@ static void test_follow_goes_to_the_fire(void **context)
     uint32_t driver = put_tank(s, 10000.0, 10000.0, 0.0);
     for (int n = 0; n < 12; n++)
         put_tank(s, 10000.0, 9850.0, 0.0);
-    s->entities.vx[driver] = 10.0;
+    s->entities.row[driver].vx = 10.0;
     uint32_t shooter = put_tank(s, 20000.0, 20000.0, 0.0);
     uint32_t target = put_tank(s, 21000.0, 20000.0, 0.0);
     assert_int_equal(follow_choose(&follow, &s->frame_view, &s->effects, 0, false), driver);
     uint32_t round = put_tank(s, 20500.0, 20000.0, 0.0);
-    s->entities.behaviour[round] = BEHAVIOUR_FLIGHT;
-    s->entities.kind[round] = ROUND;
-    s->entities.owner_slot[round] = shooter;
-    s->entities.owner_id[round] = s->entities.id[shooter];
-    s->entities.target_slot[round] = target;
-    s->entities.target_id[round] = s->entities.id[target];
+    s->entities.row[round].behaviour = BEHAVIOUR_FLIGHT;
+    s->entities.row[round].kind = ROUND;
+    s->entities.row[round].owner_slot = shooter;
+    s->entities.row[round].owner_id = s->entities.row[shooter].id;
+    s->entities.row[round].target_slot = target;
+    s->entities.row[round].target_id = s->entities.row[target].id;
     s->head.tick = 50; /* not before FOLLOW_KEEP_S */
     assert_int_equal(follow_choose(&follow, &s->frame_view, &s->effects, 0, false), driver);
     s->head.tick = 200;
     assert_int_equal(follow_choose(&follow, &s->frame_view, &s->effects, 0, false), shooter);
     /* The target is as lively when it fires, but not so much livelier that the camera changes. */
-    s->entities.vx[target] = 4.0;
+    s->entities.row[target].vx = 4.0;
     s->head.tick = 400;
     assert_int_equal(follow_choose(&follow, &s->frame_view, &s->effects, 0, false), shooter);
     /* A howitzer shows nothing but a gun: its shells come down kilometres away. */
-    s->entities.kind[round] = SHELL;
-    s->entities.vx[target] = 0.0;
+    s->entities.row[round].kind = SHELL;
+    s->entities.row[target].vx = 0.0;
     s->head.tick = 600;
     assert_int_equal(follow_choose(&follow, &s->frame_view, &s->effects, 0, false), driver);
 }
@@ -108,7 +108,7 @@ static void test_follow_goes_to_what_burns(void **context)
 {
     struct scene_stage *s = *context;
     uint32_t driver = put_tank(s, 10000.0, 10000.0, 0.0);
-    s->entities.vx[driver] = 10.0;
+    s->entities.row[driver].vx = 10.0;
     uint32_t other = put_tank(s, 20000.0, 20000.0, 0.0);
     struct effect *effect = effects_allocate(&s->effects);
     static const struct {
@@ -123,7 +123,7 @@ static void test_follow_goes_to_what_burns(void **context)
     s->head.tick = 1000;
     for (size_t n = 0; n < sizeof cases / sizeof cases[0]; n++) {
         struct follow first = {.id = 0};
-        *effect = (struct effect){.point = {20020.0, s->entities.y[other], 20000.0},
+        *effect = (struct effect){.point = {20020.0, s->entities.row[other].y, 20000.0},
                                   .time_s = 100.0 - cases[n].age_s,
                                   .type = cases[n].type};
         assert_int_equal(follow_choose(&first, &s->frame_view, &s->effects, 0, false),
@@ -140,23 +140,23 @@ static void test_follow_weighs_what_is_to_be_seen(void **context)
     struct entities *e = &s->entities;
     uint32_t driver = put_tank(s, 10000.0, 10000.0, 0.0);
     uint32_t gun = put_tank(s, 20000.0, 20000.0, 0.0);
-    e->vx[driver] = 10.0;
-    e->kind[gun] = HOWITZER;
+    e->row[driver].vx = 10.0;
+    e->row[gun].kind = HOWITZER;
     for (int n = 0; n < 8; n++)
         put_tank(s, 20000.0, 19850.0, 0.0);
-    e->vx[put_tank(s, 40000.0, 40000.0, 0.0)] = 10.0;
+    e->row[put_tank(s, 40000.0, 40000.0, 0.0)].vx = 10.0;
     assert_true(follow_choose(&follow, &s->frame_view, &s->effects, 0, false) != gun);
     uint32_t rounds[2] = {s->head.used, s->head.used + 1}, shooters[2] = {driver, gun};
     for (int n = 0; n < 2; n++) {
         put_tank(s, 20500.0, 20000.0, 0.0);
-        e->behaviour[rounds[n]] = BEHAVIOUR_FLIGHT;
-        e->kind[rounds[n]] = ROUND;
-        e->owner_slot[rounds[n]] = shooters[n];
-        e->owner_id[rounds[n]] = e->id[shooters[n]];
+        e->row[rounds[n]].behaviour = BEHAVIOUR_FLIGHT;
+        e->row[rounds[n]].kind = ROUND;
+        e->row[rounds[n]].owner_slot = shooters[n];
+        e->row[rounds[n]].owner_id = e->row[shooters[n]].id;
     }
-    e->kind[gun] = TANK;
-    e->vx[gun] = 10.0;
-    e->kind[rounds[1]] = BULLET;
+    e->row[gun].kind = TANK;
+    e->row[gun].vx = 10.0;
+    e->row[rounds[1]].kind = BULLET;
     struct follow first = {.id = 0};
     assert_int_equal(follow_choose(&first, &s->frame_view, &s->effects, 0, false), driver);
 }
@@ -172,13 +172,13 @@ static void test_follow_looks_at_what_happens(void **context)
     assert_true(follow_look(&s->frame_view, &s->effects, row).heading_rad == 1.0);
     struct effect *effect = effects_allocate(&s->effects);
     *effect = (struct effect){
-        .point = {10000.0, e->y[row], 10200.0}, .time_s = 9.0, .type = EFFECT_BURST};
+        .point = {10000.0, e->row[row].y, 10200.0}, .time_s = 9.0, .type = EFFECT_BURST};
     assert_true(fabs(follow_look(&s->frame_view, &s->effects, row).heading_rad - PI) < 0.01);
-    e->behaviour[row] = BEHAVIOUR_ATTACK;
-    e->target_slot[row] = target;
-    e->target_id[row] = e->id[target];
+    e->row[row].behaviour = BEHAVIOUR_ATTACK;
+    e->row[row].target_slot = target;
+    e->row[row].target_id = e->row[target].id;
     assert_true(fabs(follow_look(&s->frame_view, &s->effects, row).heading_rad - HALF_PI) < 0.01);
-    e->state[target] = ENTITY_FREE; /* it is gone */
+    e->row[target].state = ENTITY_FREE; /* it is gone */
     assert_true(fabs(follow_look(&s->frame_view, &s->effects, row).heading_rad - PI) < 0.01);
     effect->point.z = 13000.0;
     assert_true(follow_look(&s->frame_view, &s->effects, row).heading_rad == 1.0);

@@ -76,7 +76,7 @@ static int open_stage(void **context)
     seed = fixture_seed(11);
     s->posts = malloc(POSTS * POSTS * sizeof *s->posts);
     s->cover = calloc(POSTS, POSTS);
-    s->columns = aligned_alloc(COLUMN_ALIGN, entities_bytes(CAPACITY));
+    s->columns = aligned_alloc(TABLE_ALIGN, entities_bytes(CAPACITY));
     assert_true(s->posts != NULL && s->cover != NULL && s->columns != NULL);
     for (uint32_t row = 0; row < POSTS; row++)
         for (uint32_t column = 0; column < POSTS; column++)
@@ -122,15 +122,15 @@ static void put(struct stage *s, uint16_t kind, double x, double z)
 {
     const struct entities *e = &s->entities;
     s->head.used = 1;
-    e->id[0] = 1;
-    e->state[0] = ENTITY_ACTIVE;
-    e->kind[0] = kind;
-    e->x[0] = x;
-    e->z[0] = z;
-    e->y[0] = ground_at(s, x, z) + (kind == PLANE ? draw(0.0, 500.0) : 0.0);
-    e->heading[0] = draw(0.0, TWO_PI);
-    e->pitch[0] = draw(-0.6, 0.6);
-    e->roll[0] = draw(-0.6, 0.6);
+    e->row[0].id = 1;
+    e->row[0].state = ENTITY_ACTIVE;
+    e->row[0].kind = kind;
+    e->row[0].x = x;
+    e->row[0].z = z;
+    e->row[0].y = ground_at(s, x, z) + (kind == PLANE ? draw(0.0, 500.0) : 0.0);
+    e->row[0].heading = draw(0.0, TWO_PI);
+    e->row[0].pitch = draw(-0.6, 0.6);
+    e->row[0].roll = draw(-0.6, 0.6);
 }
 
 static struct view_camera_options wish_of(enum view_mode view)
@@ -237,7 +237,7 @@ static void test_the_crew_looks_out_above_its_polygons(void **context)
     struct camera camera;
     view_camera_update(&aim, &wish, &s->frame_view, 0, &camera);
     const struct entities *e = &s->entities;
-    struct body_axes pose = body_axes_of(e->heading[0], e->pitch[0], e->roll[0]);
+    struct body_axes pose = body_axes_of(e->row[0].heading, e->row[0].pitch, e->row[0].roll);
     assert_true(vec3_dot(camera.right, pose.right) > 1.0 - 1e-9); /* it rolls with its vehicle */
     struct vec3 muzzle = vec3_add(entities_position(e, 0), vec3_scale(pose.forward, 5.0));
     assert_true(scene_stage_in_picture(&camera, vec3_add(muzzle, vec3_scale(pose.up, 1.8))));
@@ -250,13 +250,13 @@ static void go(struct stage *s, double turn_rps, double speed_mps)
     const struct entities *e = &s->entities;
     double sine, cosine;
     s->head.tick++;
-    e->heading[0] = maths_wrap_turn(e->heading[0] + turn_rps * DT_S);
-    maths_sincos(e->heading[0], &sine, &cosine);
+    e->row[0].heading = maths_wrap_turn(e->row[0].heading + turn_rps * DT_S);
+    maths_sincos(e->row[0].heading, &sine, &cosine);
     entities_set_velocity(e, 0, (struct vec3){speed_mps * sine, 0.0, -speed_mps * cosine});
-    e->x[0] += e->vx[0] * DT_S;
-    e->z[0] += e->vz[0] * DT_S;
-    e->y[0] = ground_at(s, e->x[0], e->z[0]);
-    e->pitch[0] = e->roll[0] = 0.0;
+    e->row[0].x += e->row[0].vx * DT_S;
+    e->row[0].z += e->row[0].vz * DT_S;
+    e->row[0].y = ground_at(s, e->row[0].x, e->row[0].z);
+    e->row[0].pitch = e->row[0].roll = 0.0;
 }
 
 static double angle_between(struct vec3 a, struct vec3 b)
@@ -278,7 +278,7 @@ static void test_chase_eases_into_a_turn(void **context)
         view_camera_update(&aim, &wish, &s->frame_view, 0, &camera);
     }
     double most = 0.0, whole = 0.0;
-    s->entities.heading[0] = maths_wrap_turn(s->entities.heading[0] + 1.5);
+    s->entities.row[0].heading = maths_wrap_turn(s->entities.row[0].heading + 1.5);
     for (int i = 0; i < 240; i++) {
         before = camera;
         go(s, 0.0, 0.0);
@@ -304,7 +304,7 @@ static void test_a_watching_camera_turns_and_keeps_the_size(void **context)
     struct view_camera_options wish = wish_of(VIEW_CHASE);
     struct camera usual, before, camera;
     put(s, TANK, 20000.0, 30000.0);
-    s->entities.heading[0] = 0.0;
+    s->entities.row[0].heading = 0.0;
     view_camera_update(&cold, &wish, &s->frame_view, 0, &usual);
     double most = 0.0;
     for (int i = 0; i < 600; i++) {
@@ -358,8 +358,8 @@ static void test_camera_restarts_after_a_break(void **context)
             view_camera_update(&aim, &wish, &s->frame_view, 0, &warm);
         }
         s->head.tick += what == 0 ? 600 : 1;
-        s->entities.x[0] += what == 1 ? 400.0 : 0.0;
-        s->entities.id[0] += what == 2 ? 1 : 0;
+        s->entities.row[0].x += what == 1 ? 400.0 : 0.0;
+        s->entities.row[0].id += what == 2 ? 1 : 0;
         view_camera_update(&aim, &wish, &s->frame_view, 0, &warm);
         view_camera_update(&cold, &wish, &s->frame_view, 0, &fresh);
         assert_memory_equal(&warm, &fresh, sizeof warm);

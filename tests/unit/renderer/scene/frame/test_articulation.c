@@ -43,17 +43,17 @@ static int open_stage(void **context)
     s->world.params = &s->params;
     s->world.kinds = kinds;
     s->world.counts.kinds = 1;
-    s->columns = aligned_alloc(COLUMN_ALIGN, entities_bytes(CAPACITY));
+    s->columns = aligned_alloc(TABLE_ALIGN, entities_bytes(CAPACITY));
     assert_non_null(s->columns);
     memset(s->columns, 0, entities_bytes(CAPACITY));
     entities_bind(&s->e, CAPACITY, s->columns);
     s->head.used = 2;
     for (uint32_t i = 0; i < 2; i++) {
-        s->e.id[i] = i + 1;
-        s->e.state[i] = ENTITY_ACTIVE;
-        s->e.target_slot[i] = SLOT_NONE;
+        s->e.row[i].id = i + 1;
+        s->e.row[i].state = ENTITY_ACTIVE;
+        s->e.row[i].target_slot = SLOT_NONE;
     }
-    s->e.x[1] = 1000.0;
+    s->e.row[1].x = 1000.0;
     s->frame_view = (struct frame_view){.world = &s->world, .head = &s->head, .entities = &s->e};
     assert_int_equal(articulation_init(&s->articulation, CAPACITY), 0);
     articulation_note(&s->articulation, &s->frame_view);
@@ -74,9 +74,9 @@ static int close_stage(void **context)
 static struct articulation_state drive(struct stage *s, double travel_m, double turn_rad)
 {
     const struct entities *e = &s->e;
-    e->heading[0] += turn_rad;
-    e->x[0] += travel_m * maths_sin(e->heading[0]);
-    e->z[0] -= travel_m * maths_cos(e->heading[0]);
+    e->row[0].heading += turn_rad;
+    e->row[0].x += travel_m * maths_sin(e->row[0].heading);
+    e->row[0].z -= travel_m * maths_cos(e->row[0].heading);
     s->head.tick++;
     articulation_note(&s->articulation, &s->frame_view);
     return articulation_of(&s->articulation, &s->frame_view, 0);
@@ -89,7 +89,7 @@ static void test_travel_is_the_distance_driven(void **context)
     double radius = 0.5, circumference = TWO_PI * radius;
     struct articulation_state state = articulation_of(&s->articulation, &s->frame_view, 0);
     assert_true(state.travel_m[0] == 0.0 && state.travel_m[1] == 0.0);
-    s->e.heading[0] = 2.1;
+    s->e.row[0].heading = 2.1;
     articulation_note(&s->articulation, &s->frame_view);
     double from = articulation_of(&s->articulation, &s->frame_view, 0).travel_m[0];
     for (int i = 0; i < 20; i++)
@@ -108,7 +108,7 @@ static void test_a_parked_vehicle_does_not_roll(void **context)
         after = drive(s, 0.0, 0.0);
     assert_true(after.travel_m[0] == before.travel_m[0] && after.travel_m[1] == before.travel_m[1]);
     /* A vehicle pushed sideways does not roll. */
-    s->e.x[0] += 2.0; /* it heads north */
+    s->e.row[0].x += 2.0; /* it heads north */
     after = drive(s, 0.0, 0.0);
     assert_true(fabs(after.travel_m[0] - before.travel_m[0]) < 1e-9);
 }
@@ -148,12 +148,12 @@ static void test_turret_and_gun_are_the_worlds(void **context)
 {
     struct stage *s = *context;
     for (int i = 0; i < 20; i++) {
-        s->e.turret[0] = -1.5f + 0.15f * (float)i;
-        s->e.gun[0] = 0.01f * (float)i;
+        s->e.row[0].turret = -1.5f + 0.15f * (float)i;
+        s->e.row[0].gun = 0.01f * (float)i;
         struct articulation_state noted = drive(s, 0.5, 0.0),
                                   frustum = articulation_of(NULL, &s->frame_view, 0);
-        assert_true(noted.turret_rad == s->e.turret[0] && noted.gun_rad == s->e.gun[0]);
-        assert_true(frustum.turret_rad == s->e.turret[0] && frustum.gun_rad == s->e.gun[0]);
+        assert_true(noted.turret_rad == s->e.row[0].turret && noted.gun_rad == s->e.row[0].gun);
+        assert_true(frustum.turret_rad == s->e.row[0].turret && frustum.gun_rad == s->e.row[0].gun);
     }
 }
 
@@ -161,10 +161,10 @@ static void test_turret_and_gun_are_the_worlds(void **context)
 static void test_wreck_stands_still(void **context)
 {
     struct stage *s = *context;
-    s->e.turret[0] = 0.8f;
-    s->e.gun[0] = 0.2f;
+    s->e.row[0].turret = 0.8f;
+    s->e.row[0].gun = 0.2f;
     struct articulation_state before = drive(s, 4.0, 0.0), after = before;
-    s->e.state[0] = ENTITY_WRECK;
+    s->e.row[0].state = ENTITY_WRECK;
     for (int i = 0; i < 40; i++) {
         float gun = after.gun_rad;
         after = drive(s, 0.3, 0.0); /* it is pushed */
@@ -187,7 +187,7 @@ static void test_state_restarts(void **context)
     s->head.tick -= 10;
     assert_true(drive(s, 4.0, 0.0).travel_m[0] == 0.0);
     assert_true(drive(s, 4.0, 0.0).travel_m[0] > 3.9);
-    s->e.id[0] = 7;
+    s->e.row[0].id = 7;
     assert_true(articulation_of(&s->articulation, &s->frame_view, 0).travel_m[0] == 0.0);
     assert_true(drive(s, 4.0, 0.0).travel_m[0] == 0.0);
 }

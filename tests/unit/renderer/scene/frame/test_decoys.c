@@ -48,14 +48,14 @@ static uint32_t put(struct scene_stage *s, uint16_t kind, double x, double y, do
 {
     uint32_t slot = s->head.used++;
     const struct entities *e = &s->entities;
-    e->id[slot] = slot + 1;
-    e->state[slot] = ENTITY_ACTIVE;
-    e->behaviour[slot] = kind == MISSILE ? BEHAVIOUR_FLIGHT : BEHAVIOUR_PATROL;
-    e->kind[slot] = kind;
-    e->x[slot] = x;
-    e->y[slot] = y;
-    e->z[slot] = MIDDLE;
-    e->vx[slot] = vx;
+    e->row[slot].id = slot + 1;
+    e->row[slot].state = ENTITY_ACTIVE;
+    e->row[slot].behaviour = kind == MISSILE ? BEHAVIOUR_FLIGHT : BEHAVIOUR_PATROL;
+    e->row[slot].kind = kind;
+    e->row[slot].x = x;
+    e->row[slot].y = y;
+    e->row[slot].z = MIDDLE;
+    e->row[slot].vx = vx;
     return slot;
 }
 
@@ -65,8 +65,8 @@ static uint32_t put_pair(struct scene_stage *s, uint16_t kind, double away_m)
     double high = GROUND + (kind == JET ? 300.0 : 0.0), speed = kind == JET ? 100.0 : 0.0;
     uint32_t target = put(s, kind, MIDDLE, high, speed);
     uint32_t missile = put(s, MISSILE, MIDDLE - away_m, high, speed + 400.0);
-    s->entities.target_slot[missile] = target;
-    s->entities.target_id[missile] = s->entities.id[target];
+    s->entities.row[missile].target_slot = target;
+    s->entities.row[missile].target_id = s->entities.row[target].id;
     return target;
 }
 
@@ -81,7 +81,7 @@ static uint32_t released(const struct scene_stage *s)
 static uint32_t particles(struct scene_stage *s)
 {
     struct camera camera;
-    struct vec3 middle = {MIDDLE, s->entities.y[0], MIDDLE};
+    struct vec3 middle = {MIDDLE, s->entities.row[0].y, MIDDLE};
     camera_look(&camera, vec3_add(middle, (struct vec3){0.0, 20.0, 150.0}), middle, 1280, 720);
     scene_build(&s->list, &camera, &s->static_scene, &s->frame_view, &s->effects);
     return s->list.particle_count;
@@ -96,7 +96,7 @@ static void test_decoys_are_out_before_a_missile_arrives(void **context)
         put_pair(s, targets[n], 1600.0); /* 4 s away */
         decoys_take(&s->effects, &s->frame_view);
         assert_int_equal(released(s), 0);
-        s->entities.x[1] = MIDDLE - 1400.0;
+        s->entities.row[1].x = MIDDLE - 1400.0;
         decoys_take(&s->effects, &s->frame_view);
         assert_int_equal(released(s), 1);
         uint32_t quiet = particles(s);
@@ -120,7 +120,7 @@ static void test_a_crew_that_fires_its_grenades_is_seen_in_smoke(void **context)
     decoys_take(&s->effects, &s->frame_view);
     assert_int_equal(released(s), 0);
     s->head.tick += 10;
-    s->entities.owner_slot[row] = (uint32_t)s->head.tick;
+    s->entities.row[row].owner_slot = (uint32_t)s->head.tick;
     for (double s_after = 0.0; s_after < SMOKE_S + 4.0; s_after += 0.5) {
         s->head.tick += (uint64_t)(0.5 * HZ);
         decoys_take(&s->effects, &s->frame_view);
@@ -132,11 +132,11 @@ static void test_who_reacts_to_nothing_releases_none(void **context)
 {
     struct scene_stage *s = *context;
     uint32_t target = put_pair(s, JET, 500.0);
-    s->entities.behaviour[target] = BEHAVIOUR_HOLD;
+    s->entities.row[target].behaviour = BEHAVIOUR_HOLD;
     decoys_take(&s->effects, &s->frame_view);
     assert_int_equal(released(s), 0);
-    s->entities.behaviour[target] = BEHAVIOUR_PATROL;
-    s->entities.target_id[1] = 0; /* the missile has lost it */
+    s->entities.row[target].behaviour = BEHAVIOUR_PATROL;
+    s->entities.row[1].target_id = 0; /* the missile has lost it */
     decoys_take(&s->effects, &s->frame_view);
     assert_int_equal(released(s), 0);
 }

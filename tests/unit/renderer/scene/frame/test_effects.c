@@ -98,12 +98,12 @@ static uint32_t put(struct scene_stage *s, uint16_t kind, double x, double above
 {
     uint32_t slot = s->head.used++;
     const struct entities *e = &s->entities;
-    e->id[slot] = slot + 1;
-    e->state[slot] = ENTITY_ACTIVE;
-    e->kind[slot] = kind;
-    e->x[slot] = x;
-    e->y[slot] = (double)GROUND + above;
-    e->z[slot] = z;
+    e->row[slot].id = slot + 1;
+    e->row[slot].state = ENTITY_ACTIVE;
+    e->row[slot].kind = kind;
+    e->row[slot].x = x;
+    e->row[slot].y = (double)GROUND + above;
+    e->row[slot].z = z;
     return slot;
 }
 
@@ -123,9 +123,9 @@ static void step(struct scene_stage *s)
     s->head.frame++;
     s->head.tick++;
     for (uint32_t i = 0; i < s->head.used; i++) {
-        s->entities.x[i] += s->entities.vx[i] / HZ;
-        s->entities.y[i] += s->entities.vy[i] / HZ;
-        s->entities.z[i] += s->entities.vz[i] / HZ;
+        s->entities.row[i].x += s->entities.row[i].vx / HZ;
+        s->entities.row[i].y += s->entities.row[i].vy / HZ;
+        s->entities.row[i].z += s->entities.row[i].vz / HZ;
     }
     effects_take(&s->effects, &s->frame_view, NULL, 0);
 }
@@ -210,15 +210,15 @@ static void test_a_flash_points_along_its_round(void **context)
 {
     struct scene_stage *s = *context;
     uint32_t round = put(s, SHELL, MIDDLE, 1.0, MIDDLE - 30.0);
-    s->entities.vz[round] = -1500.0;
+    s->entities.row[round].vz = -1500.0;
     struct event event = happening(s, EFFECT_FLASH);
-    event.fire.munition.id = s->entities.id[round];
+    event.fire.munition.id = s->entities.row[round].id;
     effects_take(&s->effects, &s->frame_view, &event, 1);
     assert_true(s->effects.effect[0].direction[2] < -0.999f);
     /* When the round is gone: away from the shooter. */
-    s->entities.state[round] = ENTITY_FREE;
+    s->entities.row[round].state = ENTITY_FREE;
     uint32_t tank = put(s, TANK, MIDDLE - 5.0, 1.0 - 0.7 * 2.4, MIDDLE);
-    event.fire.shooter.id = s->entities.id[tank];
+    event.fire.shooter.id = s->entities.row[tank].id;
     event.fire.munition.id = 900;
     effects_take(&s->effects, &s->frame_view, &event, 1);
     assert_true(s->effects.effect[1].direction[0] > 0.999f);
@@ -274,9 +274,9 @@ static void test_the_first_effect_to_end_is_replaced(void **context)
 static uint32_t put_wreck(struct scene_stage *s, double x, double z)
 {
     uint32_t slot = put(s, TANK, x, 0.0, z);
-    s->entities.state[slot] = ENTITY_WRECK;
-    s->entities.damage[slot] = DAMAGE_DESTROYED;
-    s->entities.changed_tick[slot] = (uint32_t)s->head.tick;
+    s->entities.row[slot].state = ENTITY_WRECK;
+    s->entities.row[slot].damage = DAMAGE_DESTROYED;
+    s->entities.row[slot].changed_tick = (uint32_t)s->head.tick;
     effects_take(&s->effects, &s->frame_view, NULL, 0);
     return slot;
 }
@@ -292,8 +292,9 @@ static void test_a_wreck_bursts_once(void **context)
     assert_true(s->effects.effect[0].time_s == 6000.0 / HZ);
     /* Debris that is already there when a renderer starts is at rest. */
     uint32_t old = put(s, TANK, MIDDLE + 50.0, 0.0, MIDDLE);
-    s->entities.state[old] = ENTITY_WRECK;
-    s->entities.changed_tick[old] = (uint32_t)(s->head.tick - (uint64_t)(HZ * EFFECT_LIFE_S) - 60);
+    s->entities.row[old].state = ENTITY_WRECK;
+    s->entities.row[old].changed_tick =
+        (uint32_t)(s->head.tick - (uint64_t)(HZ * EFFECT_LIFE_S) - 60);
     step(s);
     assert_int_equal(s->effects.count, 1);
 }
@@ -303,8 +304,8 @@ static void test_a_wreck_that_breaks_up_bursts_again(void **context)
     struct scene_stage *s = *context;
     uint32_t slot = put_wreck(s, MIDDLE, MIDDLE);
     step(s);
-    s->entities.flags[slot] |= ENTITY_FLAG_BROKEN;
-    s->entities.changed_tick[slot] = (uint32_t)s->head.tick;
+    s->entities.row[slot].flags |= ENTITY_FLAG_BROKEN;
+    s->entities.row[slot].changed_tick = (uint32_t)s->head.tick;
     for (uint32_t i = 0; i < 10; i++)
         step(s);
     assert_int_equal(s->effects.count, 2);
@@ -355,14 +356,14 @@ static void test_smoke_goes_on_when_damage_grows(void **context)
 {
     struct scene_stage *s = *context;
     uint32_t slot = put(s, TANK, MIDDLE, 0.0, MIDDLE);
-    s->entities.damage[slot] = DAMAGE_MED;
-    s->entities.changed_tick[slot] = (uint32_t)s->head.tick;
+    s->entities.row[slot].damage = DAMAGE_MED;
+    s->entities.row[slot].changed_tick = (uint32_t)s->head.tick;
     for (uint32_t i = 0; i < 900; i++)
         step(s);
     look(s, 60.0);
     double before = ink(s);
-    s->entities.damage[slot] = DAMAGE_HIGH;
-    s->entities.changed_tick[slot] = (uint32_t)s->head.tick;
+    s->entities.row[slot].damage = DAMAGE_HIGH;
+    s->entities.row[slot].changed_tick = (uint32_t)s->head.tick;
     look(s, 60.0);
     assert_true(before > 0.0 && fabs(ink(s) - before) < 0.05 * before);
 }
@@ -376,7 +377,7 @@ static double dust_on(struct scene_stage *s, enum cover cover, double speed)
     s->head.used = 0;
     memset(&s->effects, 0, sizeof s->effects);
     uint32_t slot = put(s, TANK, MIDDLE - 3.0 * speed, 0.0, MIDDLE);
-    s->entities.vx[slot] = speed;
+    s->entities.row[slot].vx = speed;
     for (uint32_t i = 0; i < 180; i++)
         step(s);
     look(s, 50.0);
@@ -401,7 +402,7 @@ static void test_dust_stays_when_the_vehicle_stops(void **context)
 {
     struct scene_stage *s = *context;
     double before = dust_on(s, COVER_SAND, 14.0);
-    s->entities.vx[0] = 0.0;
+    s->entities.row[0].vx = 0.0;
     step(s);
     look(s, 50.0);
     assert_true(fabs(ink(s) - before) < 0.1 * before);
@@ -413,7 +414,7 @@ static void test_only_low_rotors_raise_dust(void **context)
     uint32_t slot = put(s, CHOPPER, MIDDLE, 40.0, MIDDLE);
     look(s, 60.0);
     assert_int_equal(s->list.particle_count, 0);
-    s->entities.y[slot] = (double)GROUND + 3.0;
+    s->entities.row[slot].y = (double)GROUND + 3.0;
     look(s, 60.0);
     assert_true(s->list.particle_count > 5);
     lay(s, COVER_FOREST);
@@ -429,13 +430,13 @@ static void test_a_ship_leaves_a_wake(void **context)
     struct scene_stage *s = *context;
     lay(s, COVER_SEA);
     uint32_t slot = put(s, SHIP, MIDDLE - 130.0, 0.0, MIDDLE - 60.0);
-    s->entities.vx[slot] = 13.0;
-    s->entities.heading[slot] = HALF_PI;
+    s->entities.row[slot].vx = 13.0;
+    s->entities.row[slot].heading = HALF_PI;
     for (uint32_t i = 0; i < 600; i++)
         step(s);
     look(s, 150.0);
     uint32_t behind = 0;
-    double reach = s->entities.x[slot] - 100.0 - MIDDLE;
+    double reach = s->entities.row[slot].x - 100.0 - MIDDLE;
     for (uint32_t i = 0; i < s->list.particle_count; i++)
         behind += (double)s->list.particles[i].at[0] < reach;
     assert_true(behind > 3);
@@ -448,13 +449,13 @@ static void test_a_trail_is_where_the_missile_flew(void **context)
     struct scene_stage *s = *context;
     const double radius = 90.0, turn = 1.1; /* [m], [rad/s] */
     uint32_t slot = put(s, MISSILE, MIDDLE, 30.0, MIDDLE);
-    s->entities.born_tick[slot] = (uint32_t)s->head.tick;
+    s->entities.row[slot].born_tick = (uint32_t)s->head.tick;
     for (uint32_t i = 0; i < 150; i++) {
         double angle = turn * i / HZ;
-        s->entities.x[slot] = MIDDLE + radius * maths_cos(angle);
-        s->entities.z[slot] = MIDDLE - radius * maths_sin(angle);
-        s->entities.vx[slot] = -radius * turn * maths_sin(angle);
-        s->entities.vz[slot] = -radius * turn * maths_cos(angle);
+        s->entities.row[slot].x = MIDDLE + radius * maths_cos(angle);
+        s->entities.row[slot].z = MIDDLE - radius * maths_sin(angle);
+        s->entities.row[slot].vx = -radius * turn * maths_sin(angle);
+        s->entities.row[slot].vz = -radius * turn * maths_cos(angle);
         s->head.tick++;
         s->head.frame++;
         effects_take(&s->effects, &s->frame_view, NULL, 0);
@@ -462,13 +463,13 @@ static void test_a_trail_is_where_the_missile_flew(void **context)
     for (uint32_t gone = 0; gone < 2; gone++) {
         if (gone) {
             struct event end = happening(s, EFFECT_SPLASH);
-            end.detonation.munition.id = s->entities.id[slot];
+            end.detonation.munition.id = s->entities.row[slot].id;
             end.detonation.struck = STRUCK_AIR;
             end.detonation.explosive_kg = 0.0f;
-            end.detonation.point[0] = s->entities.x[slot];
-            end.detonation.point[1] = s->entities.y[slot];
-            end.detonation.point[2] = s->entities.z[slot];
-            s->entities.state[slot] = ENTITY_FREE;
+            end.detonation.point[0] = s->entities.row[slot].x;
+            end.detonation.point[1] = s->entities.row[slot].y;
+            end.detonation.point[2] = s->entities.row[slot].z;
+            s->entities.row[slot].state = ENTITY_FREE;
             effects_take(&s->effects, &s->frame_view, &end, 1);
         }
         look(s, 300.0);
@@ -534,11 +535,11 @@ static void furnish(struct scene_stage *s)
         effects_take(&s->effects, &s->frame_view, &event, 1);
     }
     uint32_t tank = put(s, TANK, MIDDLE - 60.0, 0.0, MIDDLE - 10.0);
-    s->entities.vx[tank] = 12.0;
+    s->entities.row[tank].vx = 12.0;
     uint32_t missile = put(s, MISSILE, MIDDLE - 100.0, 20.0, MIDDLE - 20.0);
-    s->entities.vx[missile] = 150.0;
+    s->entities.row[missile].vx = 150.0;
     uint32_t shell = put(s, SHELL, MIDDLE, 5.0, MIDDLE);
-    s->entities.vx[shell] = 30.0;
+    s->entities.row[shell].vx = 30.0;
     put(s, CHOPPER, MIDDLE + 15.0, 4.0, MIDDLE);
     put_wreck(s, MIDDLE + 5.0, MIDDLE);
 }

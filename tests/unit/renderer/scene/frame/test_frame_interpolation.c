@@ -2,6 +2,7 @@
 #include "renderer/scene/frame/frame_interpolation.h"
 
 #include "tests/support/fixture.h"
+#include "world/checksum.h"
 #include "world/params.h"
 
 #include <setjmp.h>
@@ -40,7 +41,7 @@ static double draw(double low, double high)
 
 static void open_frame(struct frame_of *frame, const struct world *world, uint64_t number)
 {
-    frame->columns = aligned_alloc(COLUMN_ALIGN, entities_bytes(CAPACITY));
+    frame->columns = aligned_alloc(TABLE_ALIGN, entities_bytes(CAPACITY));
     assert_non_null(frame->columns);
     memset(frame->columns, 0, entities_bytes(CAPACITY));
     entities_bind(&frame->entities, CAPACITY, frame->columns);
@@ -62,20 +63,20 @@ static int open_stage(void **context)
     assert_int_equal(frame_interpolation_init(&s->interpolation, CAPACITY), 0);
     for (uint32_t i = 0; i < CAPACITY; i++) {
         const struct entities *e = &s->a.entities;
-        e->id[i] = i + 1;
-        e->state[i] = i % 5 == 4 ? ENTITY_WRECK : ENTITY_ACTIVE;
+        e->row[i].id = i + 1;
+        e->row[i].state = i % 5 == 4 ? ENTITY_WRECK : ENTITY_ACTIVE;
         entities_set_position(e, i, (struct vec3){draw(0, 5e4), draw(0, 1e3), draw(0, 5e4)});
         entities_set_velocity(e, i, (struct vec3){draw(-90, 90), draw(-9, 9), draw(-90, 90)});
-        e->heading[i] = draw(0.0, TWO_PI);
-        e->pitch[i] = draw(-1.0, 1.0);
-        e->roll[i] = draw(-PI, PI);
+        e->row[i].heading = draw(0.0, TWO_PI);
+        e->row[i].pitch = draw(-1.0, 1.0);
+        e->row[i].roll = draw(-PI, PI);
         entities_copy(&s->b.entities, e, i, 1);
         e = &s->b.entities;
         struct vec3 direction = vec3_scale(entities_velocity(e, i), DT_S);
         entities_set_position(e, i, vec3_add(entities_position(e, i), direction));
-        e->heading[i] = maths_wrap_turn(e->heading[i] + draw(-0.3, 0.3));
-        e->pitch[i] += draw(-0.1, 0.1);
-        e->roll[i] = maths_wrap_half(e->roll[i] + draw(-0.3, 0.3));
+        e->row[i].heading = maths_wrap_turn(e->row[i].heading + draw(-0.3, 0.3));
+        e->row[i].pitch += draw(-0.1, 0.1);
+        e->row[i].roll = maths_wrap_half(e->row[i].roll + draw(-0.3, 0.3));
     }
     *context = s;
     return 0;
@@ -123,9 +124,9 @@ static void test_bodies_move_evenly_when_the_end_of_the_table_falls_back(void **
     s->b.head.used = CAPACITY / 2;
     struct frame_view frame_view = at(s, 0.5);
     for (uint32_t i = 0; i < CAPACITY; i++) {
-        double ax = s->a.entities.x[i], bx = s->b.entities.x[i];
+        double ax = s->a.entities.row[i].x, bx = s->b.entities.row[i].x;
         double x = i < CAPACITY / 2 ? 0.5 * (ax + bx) : ax;
-        assert_true(fabs(frame_view.entities->x[i] - x) < 1e-6);
+        assert_true(fabs(frame_view.entities->row[i].x - x) < 1e-6);
     }
 }
 
@@ -144,10 +145,10 @@ static void test_bodies_move_evenly_and_turn_by_the_shorter_arc(void **context)
             double direction = vec3_length(vec3_sub(to, from));
             assert_true(fabs(vec3_length(vec3_sub(here, from)) - share * direction) < 1e-6);
             assert_true(fabs(vec3_length(vec3_sub(to, here)) - (1.0 - share) * direction) < 1e-6);
-            assert_true(e->heading[i] >= 0.0 && e->heading[i] < TWO_PI);
-            const double angle[][3] = {{a->heading[i], b->heading[i], e->heading[i]},
-                                       {a->pitch[i], b->pitch[i], e->pitch[i]},
-                                       {a->roll[i], b->roll[i], e->roll[i]}};
+            assert_true(e->row[i].heading >= 0.0 && e->row[i].heading < TWO_PI);
+            const double angle[][3] = {{a->row[i].heading, b->row[i].heading, e->row[i].heading},
+                                       {a->row[i].pitch, b->row[i].pitch, e->row[i].pitch},
+                                       {a->row[i].roll, b->row[i].roll, e->row[i].roll}};
             for (int k = 0; k < 3; k++) {
                 double whole = turn(angle[k][0], angle[k][1]);
                 assert_true(fabs(turn(angle[k][0], angle[k][2]) - share * whole) < 1e-9);
@@ -160,28 +161,26 @@ static void test_bodies_move_evenly_and_turn_by_the_shorter_arc(void **context)
 static void test_turning_past_north_takes_the_shorter_arc(void **context)
 {
     struct stage *s = *context;
-    s->a.entities.heading[0] = TWO_PI - 0.1;
-    s->b.entities.heading[0] = 0.1;
-    assert_true(turn(at(s, 0.5).entities->heading[0], 0.0) < 1e-9);
-    assert_true(turn(at(s, 0.25).entities->heading[0], -0.05) < 1e-9);
+    s->a.entities.row[0].heading = TWO_PI - 0.1;
+    s->b.entities.row[0].heading = 0.1;
+    assert_true(turn(at(s, 0.5).entities->row[0].heading, 0.0) < 1e-9);
+    assert_true(turn(at(s, 0.25).entities->row[0].heading, -0.05) < 1e-9);
 }
 
 /* All other columns of the table are the earlier frame's. */
 static void test_nothing_else_changes_early(void **context)
 {
     struct stage *s = *context;
-    s->b.entities.damage[0] = 3;
-    s->b.entities.rounds[1] = 7;
-    s->b.entities.fuel_l[2] = 9.0;
+    s->b.entities.row[0].damage = 3;
+    s->b.entities.row[1].rounds = 7;
+    s->b.entities.row[2].fuel_l = 9.0;
     struct frame_view frame_view = at(s, 0.9);
     assert_ptr_equal(frame_view.head, s->a.frame_view.head);
-#define X(type, name)                                                                              \
-    if (strcmp(#name, "x") != 0 && strcmp(#name, "y") != 0 && strcmp(#name, "z") != 0 &&           \
-        strcmp(#name, "heading") != 0 && strcmp(#name, "pitch") != 0 &&                            \
-        strcmp(#name, "roll") != 0)                                                                \
-        assert_memory_equal(frame_view.entities->name, s->a.entities.name, CAPACITY * sizeof(type));
-    ENTITY_COLUMNS(X)
-#undef X
+    const uint64_t pose = FIELD_BIT(x) | FIELD_BIT(y) | FIELD_BIT(z) | FIELD_BIT(heading) |
+                          FIELD_BIT(pitch) | FIELD_BIT(roll);
+    for (uint32_t i = 0; i < CAPACITY; i++)
+        assert_int_equal(
+            entity_differing(&frame_view.entities->row[i], &s->a.entities.row[i]) & ~pose, 0);
 }
 
 static void check_stays(struct stage *s, uint32_t slot)
@@ -190,19 +189,19 @@ static void check_stays(struct stage *s, uint32_t slot)
     struct vec3 before = entities_position(&s->a.entities, slot);
     struct vec3 between = entities_position(frame_view.entities, slot);
     assert_memory_equal(&before, &between, sizeof before);
-    assert_int_equal(frame_view.entities->state[slot], s->a.entities.state[slot]);
-    assert_int_equal(frame_view.entities->id[slot], s->a.entities.id[slot]);
+    assert_int_equal(frame_view.entities->row[slot].state, s->a.entities.row[slot].state);
+    assert_int_equal(frame_view.entities->row[slot].id, s->a.entities.row[slot].id);
 }
 
 static void test_rows_that_change_are_not_interpolated(void **context)
 {
     struct stage *s = *context;
-    s->a.entities.state[0] = ENTITY_FREE; /* appears */
-    s->b.entities.state[1] = ENTITY_FREE; /* is gone */
-    s->b.entities.id[2] = 999;            /* another in its slot */
-    s->b.entities.state[3] = ENTITY_WRECK;
-    s->b.entities.x[5] += 30.0;
-    s->b.entities.y[6] -= 30.0;
+    s->a.entities.row[0].state = ENTITY_FREE; /* appears */
+    s->b.entities.row[1].state = ENTITY_FREE; /* is gone */
+    s->b.entities.row[2].id = 999;            /* another in its slot */
+    s->b.entities.row[3].state = ENTITY_WRECK;
+    s->b.entities.row[5].x += 30.0;
+    s->b.entities.row[6].y -= 30.0;
     static const uint32_t slots[] = {0, 1, 2, 3, 5, 6};
     for (size_t i = 0; i < sizeof slots / sizeof slots[0]; i++)
         check_stays(s, slots[i]);
