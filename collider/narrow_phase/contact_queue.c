@@ -123,7 +123,8 @@ void contact_queue_begin(struct contact_queue *contacts, const struct pair_list 
     contact_pairs_begin(contacts, lists, list_count);
 }
 
-/* Remembers what a dear search has found that keeps a pair apart, or that it has found nothing. */
+/* Remembers what a dear search has found that keeps a pair apart, or that it has found nothing.
+ * Most find what was remembered, and are not counted. */
 static void remember(struct contact_queue *contacts, uint32_t index)
 {
     uint32_t searched = contacts->searched[index];
@@ -136,15 +137,15 @@ static void remember(struct contact_queue *contacts, uint32_t index)
 
 void contact_queue_end(struct contact_queue *contacts)
 {
-    for (uint32_t i = 0; i < contacts->pair_count; i++) {
-        struct pair pair = contacts->pair[i];
+    const struct pair *pair = contacts->pair;
+    uint32_t *head = contacts->head;
+    uint8_t *known = contacts->apart.known;
+    for (uint32_t i = 0; i < contacts->pair_count; i++)
         remember(contacts, i);
-        contacts->head[pair.a] = 0;
-        pair_apart_forget(&contacts->apart, pair.a);
-        if (pair.b & PAIR_FIXED)
-            continue;
-        contacts->head[pair.b] = 0;
-        pair_apart_forget(&contacts->apart, pair.b);
+    for (uint32_t i = 0, count = contacts->pair_count; i < count; i++) {
+        uint32_t a = pair[i].a, b = pair[i].b & PAIR_FIXED ? a : pair[i].b;
+        head[a] = head[b] = 0;
+        known[a] = known[b] = 0; /* as pair_apart_forget() does */
     }
     gap_memory_settle(&contacts->gaps);
 }
@@ -159,12 +160,15 @@ static bool search_axis(struct contact_queue *contacts, uint32_t index, double f
     const struct pair *pair = &contacts->pair[index];
     struct pair_known *known = &contacts->known[index];
     struct remembered_axis last = axis_memory_recall(&contacts->axes, pair);
+    struct vec3 axis = last.axis;
     bool nearest = last.failed % FAILED_A_SEARCH == 0;
-    bool found = pair_apart_stays(&contacts->apart, pair, from, SKIN_M, nearest, &last.axis,
-                                  &known->stays_m);
+    bool found =
+        pair_apart_stays(&contacts->apart, pair, from, SKIN_M, nearest, &axis, &known->stays_m);
     if (found)
-        known->plane[0] = last.axis;
-    contacts->searched[index] = found ? 1 : last.failed + 2;
+        known->plane[0] = axis;
+    bool same =
+        last.failed == 0 && axis.x == last.axis.x && axis.y == last.axis.y && axis.z == last.axis.z;
+    contacts->searched[index] = !found ? last.failed + 2 : same ? 0 : 1;
     return found;
 }
 
@@ -325,13 +329,12 @@ static void find_some(void *context, uint32_t first, uint32_t end, uint32_t work
 {
     struct job *job = context;
     struct contact contact;
-    (void)worker;
     for (uint32_t i = first; i < end; i++) {
         if (!(job->contacts->marks[i] & CONTACT_RESTS) &&
             sweep_pair(job->contacts, job->input, i, 0.0, &contact))
             note(job, &contact);
         if (i % PAIRS_A_PIECE == 0)
-            work_done();
+            work_done_by(worker);
     }
 }
 
@@ -520,12 +523,11 @@ static void list_pairs(struct contact_queue *contacts, uint32_t row)
 static void sweep_due(void *context, uint32_t first, uint32_t end, uint32_t worker)
 {
     const struct job *job = context;
-    (void)worker;
     for (uint32_t i = first; i < end; i++) {
         struct due_pair *due = &job->contacts->due[i];
         due->meets = sweep_pair(job->contacts, job->input, due->pair, job->from, &due->contact);
     }
-    work_done();
+    work_done_by(worker);
 }
 
 void contact_queue_change(struct contact_queue *contacts, const struct contact_input *input,

@@ -131,7 +131,7 @@ struct contact_queue {
     struct pair_impacts *impacts; /* [pair] */
     struct pair_known *known;     /* [pair] */
     uint32_t *searched; /* [pair] dear searches for an axis (axis_memory.h) since one has found it,
-                           and 1; 0: the frame needed none */
+                           and 1; 0: the frame needed none, or has found what is remembered */
     struct resting_known *rested; /* [rested_count] in the order in which they were found */
     uint32_t rested_count;
     struct rest_span *rest; /* [pair] where its bodies rest on each other */

@@ -327,12 +327,11 @@ static void measure_some(void *argument, uint32_t first, uint32_t end, uint32_t 
 {
     const struct table_job *job = argument;
     const struct state *committed = job->context->motion->committed;
-    (void)worker;
     for (uint32_t i = first; i < end; i++) {
         struct contact_gap *gap = &job->table->gap[i];
         gap->gap_m = gap_at_end(job->context, &committed->contacts[gap->contact]);
     }
-    work_done();
+    work_done_by(worker);
 }
 
 static void measure_gaps(struct contact_table *table, const struct response_context *context)

@@ -193,7 +193,6 @@ static void measure_some(void *argument, uint32_t first, uint32_t end, uint32_t 
     const struct behind_job *job = argument;
     const struct body_motion *motion = job->context->motion;
     const struct island *island = job->context->island;
-    (void)worker;
     for (uint32_t i = first; i < end; i++) {
         struct level_gap gap[LEVEL_GAPS_MAX];
         struct free_turn turn_a, turn_b;
@@ -205,7 +204,7 @@ static void measure_some(void *argument, uint32_t first, uint32_t end, uint32_t 
                                        contact_queue_memory(job->context->contacts, index), gap);
         island->gap[i] = gaps > 0 ? gap[0] : (struct level_gap){.points = 0};
     }
-    work_done();
+    work_done_by(worker);
 }
 
 /* Takes the contact between two bodies that rest on each other, if they touch at this time. */

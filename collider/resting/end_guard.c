@@ -460,12 +460,11 @@ static void stand_some(void *argument, uint32_t first, uint32_t end, uint32_t wo
 static void measure_some(void *argument, uint32_t first, uint32_t end, uint32_t worker)
 {
     const struct round *round = argument;
-    (void)worker;
     for (uint32_t i = first; i < end; i++) {
         struct guard_pair *one = &round->guard->pair[i];
         one->deeper = deeper(round->guard, round->context, one->pair);
     }
-    work_done();
+    work_done_by(worker);
 }
 
 /* Returns how far a side of a pair has come along the pair's normal [m]. */

@@ -30,6 +30,9 @@ int resting_init(struct resting *resting, const struct world *world, struct thre
     resting->gap = reserve_take(pairs, sizeof *resting->gap);
     resting->wide = reserve_take(RESTING_GAPS_MAX * (uint64_t)pairs, sizeof *resting->wide);
     resting->gap_before = reserve_take(pairs, sizeof *resting->gap_before);
+    resting->key = reserve_take(pairs, sizeof *resting->key);
+    resting->key_before = reserve_take(pairs, sizeof *resting->key_before);
+    resting->before_of = reserve_take(pairs, sizeof *resting->before_of);
     resting->put_off = reserve_take(pairs, sizeof *resting->put_off);
     resting->pair = reserve_take(pairs, sizeof *resting->pair);
     resting->point = reserve_take(pairs * RESTING_POINTS_MAX, sizeof *resting->point);
@@ -46,7 +49,8 @@ int resting_init(struct resting *resting, const struct world *world, struct thre
         parting_init(&resting->parting, rows + pairs, pairs * RESTING_POINTS_MAX) == 0 &&
         level_lanes_init(&resting->lanes, rows + pairs, POINTS_A_PAIR * pairs) == 0 &&
         neighbours_init(&resting->neighbours, world) == 0 && level_exit_init(&resting->exit) == 0 &&
-        resting->gap && resting->wide && resting->gap_before && resting->put_off && resting->pair &&
+        resting->gap && resting->wide && resting->gap_before && resting->key &&
+        resting->key_before && resting->before_of && resting->put_off && resting->pair &&
         resting->point && resting->body && resting->row && resting->pressed_ns && resting->stands &&
         resting->body_of && resting->moved && resting->leaving)
         return 0;
@@ -68,6 +72,9 @@ void resting_free(struct resting *resting)
     reserve_free(resting->gap);
     reserve_free(resting->wide);
     reserve_free(resting->gap_before);
+    reserve_free(resting->key);
+    reserve_free(resting->key_before);
+    reserve_free(resting->before_of);
     reserve_free(resting->put_off);
     reserve_free(resting->pair);
     reserve_free(resting->point);

@@ -58,9 +58,9 @@ struct resting_gap {
                           stayed */
     struct level_gap_memory memory;
     const struct persistent_contact *known; /* the pair's row in the committed table, or NULL */
-    /* Of what it was measured: the pair's key in the table, the versions of its bodies
-     * (begun_bodies.h), and the memory that the search began with. */
-    uint64_t key, version[2];
+    /* Of what it was measured: the versions of its bodies (begun_bodies.h), and the memory that the
+     * search began with. */
+    uint64_t version[2];
     struct level_gap_memory began;
     bool repeats;                     /* the same would be found again */
     const struct resting_gap *before; /* of the same pair in the frame before, or NULL */
@@ -80,6 +80,8 @@ struct resting {
     uint32_t *leaving;       /* [capacity of the world] pairs of the row that need a way out */
     struct resting_gap *gap; /* [groups.count] */
     struct resting_gap *gap_before; /* [before] of the table's pairs in the frame before, by key */
+    uint64_t *key, *key_before;     /* [groups.known] and [before] the keys of these pairs */
+    uint32_t *before_of; /* [groups.known] index + 1 of the same pair into gap_before, else 0 */
     uint32_t before;
     struct level_gap *wide; /* [RESTING_GAPS_MAX * capacity] the lists that few has no room for */
     uint32_t *put_off;      /* gaps that are measured when the crowds are known */

@@ -37,6 +37,10 @@ static void make_room(struct resting *resting, const struct world *world, uint32
     resting->gap = reserve_grow(resting->gap, kept, more, sizeof *resting->gap);
     resting->gap_before =
         reserve_grow(resting->gap_before, resting->before, more, sizeof *resting->gap_before);
+    resting->key = reserve_grow(resting->key, kept, more, sizeof *resting->key);
+    resting->key_before =
+        reserve_grow(resting->key_before, resting->before, more, sizeof *resting->key_before);
+    resting->before_of = reserve_grow(resting->before_of, kept, more, sizeof *resting->before_of);
     resting->wide = reserve_grow(resting->wide, kept * (uint64_t)RESTING_GAPS_MAX,
                                  more * RESTING_GAPS_MAX, sizeof *resting->wide);
     for (uint32_t i = 0; i < kept; i++)
@@ -91,10 +95,18 @@ static double margin_of(const struct gap_job *job, uint32_t index, const struct 
     return index < job->resting->groups.known ? NEAR_M + nearing(a, b) : 0.0;
 }
 
-/* Sets what the table remembers of a pair, and of which bodies it is measured. */
-static void recall(const struct gap_job *job, const struct pair *pair, struct resting_gap *gap)
+/* Sets what the table remembers of a pair, and of which bodies it is measured. The pairs that are
+ * not in the list of the table have been looked up (begin_others()). */
+static void recall(const struct gap_job *job, uint32_t index, struct resting_gap *gap)
 {
-    const uint64_t *version = job->resting->begun.version;
+    const struct resting *resting = job->resting;
+    const struct pair *pair = &resting->groups.pair[index];
+    const uint64_t *version = resting->begun.version;
+    if (index < resting->groups.known) {
+        uint32_t before = resting->before_of[index];
+        gap->known = &job->context->motion->committed->contacts[resting->groups.contact[index]];
+        gap->before = before != 0 ? &resting->gap_before[before - 1] : NULL;
+    }
     gap->memory = (struct level_gap_memory){0};
     if (gap->known)
         memcpy(gap->memory.nearest, gap->known->nearest, sizeof gap->memory.nearest);
@@ -187,7 +199,7 @@ static void measure_pair(const struct gap_job *job, uint32_t index)
     const struct pair *pair = &job->resting->groups.pair[index];
     struct resting_gap *gap = &job->resting->gap[index];
     struct begun_body fixed;
-    recall(job, pair, gap);
+    recall(job, index, gap);
     gap->place = contact_pairs_find(job->context->contacts, pair);
     gap->capsules = gap->put_off = gap->spreads = gap->repeats = false;
     gap->pieces_m = PAIR_NOT_MEASURED;
@@ -248,39 +260,40 @@ static void measure_put_off(const struct gap_job *job, uint32_t index)
 static void measure_some(void *argument, uint32_t first, uint32_t end, uint32_t worker)
 {
     const struct gap_job *job = argument;
-    (void)worker;
     for (uint32_t i = job->first + first; i < job->first + end; i++)
         measure_pair(job, i);
-    work_done();
+    work_done_by(worker);
 }
 
 /* The same of those that were put off. */
 static void measure_some_put_off(void *argument, uint32_t first, uint32_t end, uint32_t worker)
 {
     const struct gap_job *job = argument;
-    (void)worker;
     for (uint32_t i = first; i < end; i++)
         measure_put_off(job, job->resting->put_off[i]);
-    work_done();
+    work_done_by(worker);
 }
 
 /* Keeps the gaps of the frame before, and finds among them those of the table's pairs. Both lists
- * rise by their keys. */
+ * rise by their keys. The gaps themselves are large, and only those who measure them look at them.
+ */
 static void begin_gaps(struct resting *resting, const struct response_context *context)
 {
+    const struct persistent_contact *contact = context->motion->committed->contacts;
     struct resting_gap *last = resting->gap;
-    uint32_t k = 0;
+    uint64_t *last_key = resting->key;
+    uint32_t k = 0, before = resting->before;
     resting->gap = resting->gap_before;
     resting->gap_before = last;
+    resting->key = resting->key_before;
+    resting->key_before = last_key;
     make_room(resting, context->world, 0, resting->groups.count);
-    last = resting->gap_before;
     for (uint32_t i = 0; i < resting->groups.known; i++) {
-        struct resting_gap *gap = &resting->gap[i];
-        gap->known = &context->motion->committed->contacts[resting->groups.contact[i]];
-        gap->key = persistent_contact_key(gap->known);
-        while (k < resting->before && last[k].key < gap->key)
+        uint64_t key = persistent_contact_key(&contact[resting->groups.contact[i]]);
+        while (k < before && resting->key_before[k] < key)
             k++;
-        gap->before = k < resting->before && last[k].key == gap->key ? &last[k] : NULL;
+        resting->key[i] = key;
+        resting->before_of[i] = k < before && resting->key_before[k] == key ? k + 1 : 0;
     }
     resting->before = resting->groups.known;
 }

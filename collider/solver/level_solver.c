@@ -239,14 +239,14 @@ void level_solver_part(struct level_lanes *lanes, struct level_body *body, uint3
 {
     if (!any_overlap(contact, contacts))
         return;
-    level_lanes_arrange(lanes, bodies, contact, contacts);
     for (uint32_t i = 0; i < contacts; i++) {
         struct level_contact *c = &contact[i];
+        struct level_four *four = &lanes->four[lanes->place[i] / 4];
         c->part_mps = c->apart_mps != 0.0
                           ? c->apart_mps
                           : c->least_mps - speed_normal(&body[c->a].moved, &body[c->b].moved, c);
-        set_normal(&lanes->four[lanes->place[i] / 4], lanes->place[i] % 4, body, c, c->part_mps,
-                   0.0);
+        four->least_mps[lanes->place[i] % 4] = c->part_mps;
+        four->normal_ns[lanes->place[i] % 4] = 0.0;
     }
     for (uint32_t i = 0; i < bodies; i++)
         set_motion(lanes, i, &body[i].pushed, body[i].inverse_mass);

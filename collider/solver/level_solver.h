@@ -71,7 +71,8 @@ struct level_contact {
 void level_solver_run(struct level_lanes *lanes, struct level_body *body, uint32_t bodies,
                       struct level_contact *contact, uint32_t contacts);
 
-/* Recovers the overlaps of contacts that have been solved: sets the bodies' pushed. */
+/* Recovers the overlaps of the contacts that these lanes have solved last: sets the bodies' pushed.
+ */
 void level_solver_part(struct level_lanes *lanes, struct level_body *body, uint32_t bodies,
                        struct level_contact *contact, uint32_t contacts);
 

@@ -63,9 +63,8 @@ static void pause_briefly(void)
 #endif
 }
 
-/* Works on what is left of a share. Only the caller counts its pieces as work done: the counter is
- * one for all threads, and two that count short pieces wait for each other. A caller without a
- * piece waits for one piece of each helper at most. */
+/* Works on what is left of a share. Only the caller counts its pieces as work done. A caller
+ * without a piece waits for one piece of each helper at most. */
 static void work_on(struct thread_pool *workers, struct share *share, uint32_t worker)
 {
     for (;;) {
@@ -75,8 +74,7 @@ static void work_on(struct thread_pool *workers, struct share *share, uint32_t w
         uint32_t first = piece * workers->grain, left = workers->count - first;
         workers->function(workers->context, first,
                           first + (left < workers->grain ? left : workers->grain), worker);
-        if (worker == 0)
-            work_done();
+        work_done_by(worker);
     }
 }
 
@@ -176,12 +174,13 @@ static void *helper(void *argument)
 
 /* --- the caller --------------------------------------------------------------------------------*/
 
-/* Opens the job to helpers, and wakes those that sleep. */
+/* Opens the job to helpers, and wakes those that sleep. While the pool is held they have been
+ * woken, and may only not have come yet. */
 static void open_job(struct thread_pool *workers)
 {
     uint64_t job = atomic_load(&workers->gate) / GATE_JOB + 1;
     atomic_store(&workers->gate, job * GATE_JOB | GATE_OPEN);
-    if (atomic_load(&workers->asleep) > 0) {
+    if (!atomic_load(&workers->held) && atomic_load(&workers->asleep) > 0) {
         pthread_mutex_lock(&workers->mutex);
         pthread_cond_broadcast(&workers->begin);
         pthread_mutex_unlock(&workers->mutex);

@@ -19,4 +19,12 @@ static inline void work_done(void)
     atomic_fetch_add_explicit(work_done_counter, 1, memory_order_relaxed);
 }
 
+/* Counts a piece of a job (world/runtime/thread_pool.h) if it is the caller's. The counter is one
+ * for all threads, and two that count short pieces wait for each other. */
+static inline void work_done_by(uint32_t worker)
+{
+    if (worker == 0)
+        work_done();
+}
+
 #endif
