@@ -2,13 +2,11 @@
 #include "mover/agent/avoidance.h"
 
 #include "mover/agent/driving_pace.h"
-#include "mover/agent/driving/earthwork_obstacles.h"
+#include "mover/agent/driving/ground_obstacles.h"
 #include "mover/agent/neighbour_lists.h"
 #include "mover/agent/perception.h"
 #include "mover/agent/progress.h"
 #include "mover/context/cruise_start.h"
-#include "mover/context/steep_ground.h"
-#include "mover/motion/drivetrain.h"
 #include "mover/motion/kinematics.h"
 #include "world/entity/hull.h"
 #include "world/param_values.h"
@@ -37,7 +35,6 @@
 #define CHANGE_COST    0.10  /* of each radian off the last dodge, against wavering */
 #define SWEEP_COST     0.10  /* of a turn of 90 degrees off the present heading, at full speed */
 #define LEFT_COST      0.03  /* of turning left, so that two vehicles that meet both turn right */
-#define HOLDS          0.9   /* share of the slope on which its tyres just hold it to the side */
 #define SHARP_SHARE    0.25  /* share of its speed in turns of 90 degrees and more */
 #define ROLLS_MPS      2.0   /* a faster vehicle does not turn in place */
 #define CREEP_M        0.5   /* it goes on so far while it turns past an obstacle beside it */
@@ -48,14 +45,8 @@
 #define BOWL_SHARE     1.15  /* of its radius, within which a crater's ground is too steep */
 #define ROUNDED_MPS    1e-4  /* more than the index's rounding of velocities */
 
-/* Patrols go around ground that is steeper than 25 degrees, by its tangent. Costs are in shares of
- * the horizon: of such ground, and of each unit of the tangent beyond. So a patrol turns by up to
- * 55 degrees for it, and by 80 before a slope of 31. If no gentler way is free for this share of
- * the horizon, it goes over steep ground. */
-#define STEEP        0.4663
-#define STEEP_COST   0.45
-#define STEEPER_COST 2.5
-#define STEEP_FREE   0.5
+/* A patrol that finds no gentle way free for this share of the horizon goes over steep ground. */
+#define STEEP_FREE 0.5
 
 /* The fan: angles off the desired heading, with their sines and cosines. Direction PRESENT is the
  * present heading. */
@@ -159,17 +150,6 @@ static double around_of(double horizon_m)
     return maths_min(FARTHEST_M, 2.0 * horizon_m);
 }
 
-/* The tangent of the slope that is too steep: the kind does not climb it, or would slide or lean
- * over across it. */
-static double slope_of(const struct kind *kind)
-{
-    const double friction = ground_grip_of(COVER_GRASS).friction;
-    double sine, cosine;
-    maths_sincos(kind->max_slope_rad, &sine, &cosine);
-    return maths_min(sine / maths_max(cosine, 1e-9),
-                     HOLDS * drivetrain_lateral(kind, friction) / GRAVITY_MPS2);
-}
-
 int avoidance_init(struct avoidance *avoidance, const struct world *world)
 {
     const uint32_t squares = world->terrain.squares.count;
@@ -195,7 +175,7 @@ int avoidance_init(struct avoidance *avoidance, const struct world *world)
                                       ? INFINITY
                                       : (float)(gap_of(kind) + AVOIDANCE_ROUNDED_M);
             avoidance->around_m[k] = around_of(horizon_of(kind, kind->max_speed_mps));
-            avoidance->slope[k] = slope_of(kind);
+            avoidance->slope[k] = ground_obstacles_slope(kind);
             if (kind->domain == DOMAIN_LAND)
                 avoidance->fastest_mps = maths_max(avoidance->fastest_mps, kind->max_speed_mps);
         }
@@ -552,94 +532,16 @@ static void see_vehicles(const struct step_context *context, uint32_t i, struct 
         see_vehicle(context, i, look, entry);
 }
 
-static bool in_world(const struct step_context *context, double x, double z)
+/* Returns the way in direction k, with the room that the vehicle needs. */
+static struct ground_way way_of(const struct step_context *context, uint32_t i,
+                                const struct look *look, int k)
 {
-    const double side_m = context->world->terrain.squares.world_m;
-    return x > 0.0 && z > 0.0 && x < side_m && z < side_m;
-}
-
-/* How far earthworks allow it to go in direction k. */
-static double works_free(const struct step_context *context, uint32_t i, const struct look *look,
-                         int k)
-{
-    const struct entities *m = context->m;
-    const struct earthworks *works = &context->world->terrain.earthworks;
-    const struct earthwork_way way = {.x = m->row[i].x,
-                                      .z = m->row[i].z,
-                                      .ux = look->x[k],
-                                      .uz = look->z[k],
-                                      .length_m = look->horizon_m,
-                                      .beside_m = look->half_width + look->gap,
-                                      .ahead_m = look->half_length + look->gap};
-    return look->kind->domain == DOMAIN_LAND && works->count > 0
-               ? earthwork_obstacles_free(works, look->kind, &way)
-               : look->horizon_m;
-}
-
-/* Returns true if a land vehicle cannot get from one height to another within a way, up or down, or
- * would slide off the ground there. Where it stands on ground as steep it may go on. */
-static bool too_steep(const struct step_context *context, uint32_t i, double rise_m, double way_m,
-                      double x, double z)
-{
-    const struct entities *m = context->m;
-    double most = context->avoidance->slope[m->row[i].kind];
-    if (fabs(rise_m) >= most * way_m)
-        return true;
-    double there = steep_ground_at(context, i, x, z);
-    return there >= most && there > steep_ground_at(context, i, m->row[i].x, m->row[i].z);
-}
-
-/* Where the ground is tested, in shares of the horizon. What is in the water looks at the last two.
- */
-static const double tested[] = {0.0625, 0.125, 0.25, 0.5, 1.0};
-#define TESTED     ((int)(sizeof tested / sizeof tested[0]))
-#define TESTED_WET 2
-
-/* How far the ground allows it to go in direction k. Where it is not surely passable, some points
- * of it are tested. */
-static double ground_free(const struct step_context *context, uint32_t i, const struct look *look,
-                          int k)
-{
-    const struct entities *m = context->m;
-    double before_m = 0.0, before_y = m->row[i].y;
-    double end_x = m->row[i].x + look->horizon_m * look->x[k];
-    double end_z = m->row[i].z + look->horizon_m * look->z[k];
-    if (look->kind->domain == DOMAIN_LAND && in_world(context, end_x, end_z) &&
-        steep_ground_is_easy(context, i, end_x, end_z, context->avoidance->slope[m->row[i].kind]))
-        return look->horizon_m;
-    double free_m = works_free(context, i, look, k);
-    bool wet = cover_is_water(terrain_cover(&context->world->terrain, m->row[i].x, m->row[i].z));
-    for (int n = wet ? TESTED - TESTED_WET : 0; n < TESTED; n++) {
-        double distance = tested[n] * look->horizon_m;
-        double x = m->row[i].x + distance * look->x[k], z = m->row[i].z + distance * look->z[k];
-        if (!in_world(context, x, z) ||
-            cover_is_water(terrain_cover(&context->world->terrain, x, z)) !=
-                (look->kind->domain == DOMAIN_SEA))
-            return maths_min(before_m, free_m);
-        if (look->kind->domain == DOMAIN_LAND) {
-            double y = kinematics_ground(context, x, z);
-            if (too_steep(context, i, y - before_y, distance - before_m, x, z))
-                return maths_min(before_m, free_m);
-            before_y = y;
-        }
-        before_m = distance;
-    }
-    return free_m;
-}
-
-/* Returns what the ground costs a patrol in direction k, in shares of the horizon: on steep ground
- * it would slide if it turned or braked hard. */
-static double steep_cost(const struct step_context *context, uint32_t i, const struct look *look,
-                         int k)
-{
-    const struct entities *m = context->m;
-    const double dx = look->horizon_m * look->x[k], dz = look->horizon_m * look->z[k];
-    if (look->kind->domain != DOMAIN_LAND || m->row[i].behaviour != BEHAVIOUR_PATROL ||
-        !in_world(context, m->row[i].x + dx, m->row[i].z + dz) ||
-        steep_ground_is_easy(context, i, m->row[i].x + dx, m->row[i].z + dz, STEEP))
-        return 0.0;
-    double most = steep_ground_on_way(context, i, dx, dz);
-    return most < STEEP ? 0.0 : STEEP_COST + STEEPER_COST * (most - STEEP);
+    return (struct ground_way){.ux = look->x[k],
+                               .uz = look->z[k],
+                               .length_m = look->horizon_m,
+                               .beside_m = look->half_width + look->gap,
+                               .ahead_m = look->half_length + look->gap,
+                               .slope = context->avoidance->slope[context->m->row[i].kind]};
 }
 
 /* --- the choice --------------------------------------------------------------------------------*/
@@ -723,9 +625,10 @@ static int choose_ground(const struct step_context *context, uint32_t i, struct 
     double dodge = (double)context->m->row[i].dodge;
     int direction = best(look, dodge, heeds_steep);
     for (int tries = 0; tries < FAN && look->kind->domain != DOMAIN_AIR; tries++) {
-        double free_m = ground_free(context, i, look, direction);
+        const struct ground_way way = way_of(context, i, look, direction);
+        double free_m = ground_obstacles_free(context, i, &way);
         bool leads_on = free_m >= STEEP_FREE * look->horizon_m;
-        double steep = leads_on ? steep_cost(context, i, look, direction) : 0.0;
+        double steep = leads_on ? ground_obstacles_cost(context, i, &way) : 0.0;
         if (free_m >= look->free_m[direction] && steep <= look->steep[direction])
             break;
         look->free_m[direction] = maths_min(free_m, look->free_m[direction]);
@@ -746,6 +649,27 @@ static int choose(const struct step_context *context, uint32_t i, struct look *l
                : direction;
 }
 
+/* Returns true if the ground in the desired direction is not free, or steep. */
+static bool ground_hinders(const struct step_context *context, uint32_t i, const struct look *look)
+{
+    const struct ground_way way = way_of(context, i, look, 0);
+    return ground_obstacles_free(context, i, &way) < look->horizon_m ||
+           ground_obstacles_cost(context, i, &way) > 0.0;
+}
+
+/* Return how far the ground, or earthworks alone, allow it to go on as it heads. */
+static double ground_free(const struct step_context *context, uint32_t i, const struct look *look)
+{
+    const struct ground_way way = way_of(context, i, look, PRESENT);
+    return ground_obstacles_free(context, i, &way);
+}
+
+static double works_free(const struct step_context *context, uint32_t i, const struct look *look)
+{
+    const struct ground_way way = way_of(context, i, look, PRESENT);
+    return ground_obstacles_works(context, i, &way);
+}
+
 /* Looks along the desired direction first: when it is free no other is better. */
 static void look_ahead(const struct step_context *context, uint32_t i,
                        const struct desired_motion *desired)
@@ -760,16 +684,13 @@ static void look_ahead(const struct step_context *context, uint32_t i,
     bool keeps = desired->speed_mps < 0.0 || desired->shunts;
     int direction = keeps ? PRESENT : 0;
     see(context, i, &look, low);
-    if (direction == 0 && (look.free_m[0] < look.horizon_m ||
-                           (!flies && (ground_free(context, i, &look, 0) < look.horizon_m ||
-                                       steep_cost(context, i, &look, 0) > 0.0))))
+    if (direction == 0 &&
+        (look.free_m[0] < look.horizon_m || (!flies && ground_hinders(context, i, &look))))
         direction = choose(context, i, &look, low);
     if (desired->shunts)
-        look.free_m[PRESENT] =
-            maths_min(look.free_m[PRESENT], ground_free(context, i, &look, PRESENT));
+        look.free_m[PRESENT] = maths_min(look.free_m[PRESENT], ground_free(context, i, &look));
     if (direction != 0 && direction != PRESENT)
-        look.free_m[PRESENT] =
-            maths_min(look.free_m[PRESENT], works_free(context, i, &look, PRESENT));
+        look.free_m[PRESENT] = maths_min(look.free_m[PRESENT], works_free(context, i, &look));
     double free_m = look.free_m[direction], off = 0.0;
     if (look.x[direction] * look.x[PRESENT] + look.z[direction] * look.z[PRESENT] < fan_cosine[1]) {
         double turn_m = flies ? look.horizon_m : turn_free(&look, direction);
