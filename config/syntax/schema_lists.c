@@ -135,7 +135,8 @@ static const struct key script_keys[] = {
                 .meaning = "true: a vehicle that is fired upon, damaged or out of rounds does what "
                            "its kind does, and then goes on with the script. false: only a "
                            "collision, being stuck or an empty fuel tank interrupts the "
-                           "script."),
+                           "script. One that is stuck for minutes ends it: the event `agent` to "
+                           "`idle` because `stuck`."),
 };
 KEY_TABLE(schema_script, "scripts", script_keys, C, SCRIPT_KEY_COUNT);
 #undef C
@@ -160,7 +161,9 @@ static const struct key step_keys[] = {
     [STEP_KEY_FACE] =
         SCALED("face_deg", T, face_rad, -360, 360, RAD_PER_DEG, NULL, .unit = "degrees",
                .meaning = "The vehicle turns to this heading, clockwise from north. One on wheels "
-                          "drives to and fro until it heads there, some metres about its place."),
+                          "drives to and fro until it heads there, some metres about its place. "
+                          "Where it has no room for that it first drives straight on to look for "
+                          "room, and gives up the script as `stuck` if there is none."),
     [STEP_KEY_STOP] =
         BOOLEAN("stop", T, stop, STORE_U32, NULL,
                 .meaning = "true: the vehicle brakes until it stands. An aeroplane cannot."),

@@ -11,9 +11,9 @@
 #include "mover/agent/landing_place.h"
 #include "mover/agent/mission_route.h"
 #include "mover/agent/perception.h"
-#include "mover/agent/progress.h"
+#include "mover/agent/driving/progress.h"
 #include "mover/agent/ship_course.h"
-#include "mover/agent/shunting.h"
+#include "mover/agent/driving/shunting.h"
 #include "mover/agent/script_player.h"
 #include "mover/agent/smoke_screen.h"
 #include "mover/agent/target_search.h"
@@ -26,6 +26,7 @@
 
 #define CRUISE_SHARE  0.75 /* share of full speed on patrol and route */
 #define BACK_OFF_M    80.0
+#define BACK_OFF_MPS  3.0   /* backwards, at most */
 #define REST_S        8.0   /* who is stuck again stands so long or twice as long */
 #define REVERSE_SHARE 0.4   /* share of the speed when it drives backwards */
 #define REVERSE_M     150.0 /* so far a tank drives backwards into cover */
@@ -367,6 +368,7 @@ static void drive_by_behaviour(const struct step_context *context, uint32_t i,
         break;
     case BEHAVIOUR_BACK_OFF:
         drive_either_way(context, i, cruise, desired);
+        desired->speed_mps = maths_max(desired->speed_mps, -BACK_OFF_MPS);
         break;
     case BEHAVIOUR_SCRIPT:
         script_player_motion(context, i, desired);
@@ -473,7 +475,7 @@ static void think(const struct step_context *context, uint32_t i, const struct k
                                        .altitude_m = kind->cruise_altitude_m};
     struct notice notice = perception_notice(context, i);
     if (m->row[i].order == BEHAVIOUR_SCRIPT)
-        notice.percepts &= script_player_percepts(context, i) | PERCEPTION_BIT(STALLED);
+        notice.percepts &= script_player_percepts(context, i);
     const struct behaviour_table_row *row = behaviour_table_next(
         &behaviour_tables[kind->doctrine], (enum behaviour)m->row[i].behaviour, notice.percepts);
     if (row)
@@ -486,7 +488,6 @@ static void think(const struct step_context *context, uint32_t i, const struct k
     if (kind->domain == DOMAIN_SEA && !desired->driven &&
         m->row[i].behaviour != BEHAVIOUR_SCRIPT) /* a script's author has chosen the course */
         ship_course_keep(context, i, desired);
-    shunting_steer(context, i, desired);
     avoidance_steer(context, i, desired);
     if (kind->domain == DOMAIN_AIR && !desired->driven)
         fly_clear(context, i, desired);

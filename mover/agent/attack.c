@@ -4,7 +4,7 @@
 #include "mover/agent/fire_control.h"
 #include "mover/agent/goal.h"
 #include "mover/agent/perception.h"
-#include "mover/agent/shunting.h"
+#include "mover/agent/driving/shunting.h"
 #include "world/entity/climb_limits.h"
 #include "world/params.h"
 #include "world/state.h"

@@ -1,16 +1,16 @@
 /* Finds how far each direction of the fan is free, and takes the best. */
-#include "mover/agent/avoidance.h"
+#include "mover/agent/avoidance_internal.h"
 
-#include "mover/agent/driving_pace.h"
+#include "mover/agent/driving/driving_pace.h"
 #include "mover/agent/driving/ground_obstacles.h"
+#include "mover/agent/driving/progress.h"
+#include "mover/agent/driving/seen_box.h"
+#include "mover/agent/driving/shunting.h"
 #include "mover/agent/neighbour_lists.h"
 #include "mover/agent/perception.h"
-#include "mover/agent/progress.h"
+#include "mover/agent/room_around.h"
 #include "mover/context/cruise_start.h"
 #include "mover/motion/kinematics.h"
-#include "world/entity/hull.h"
-#include "world/param_values.h"
-#include "world/params.h"
 #include "world/state.h"
 #include "world/terrain/crater.h"
 #include "world/terrain/fixed_index.h"
@@ -18,32 +18,24 @@
 #include "world/world.h"
 
 #include <stddef.h>
-#include <stdlib.h>
 
-#define REACT_S        0.6  /* time until a look has turned or slowed the vehicle */
-#define TURNS_AHEAD    1.5  /* least horizon in turning circles */
-#define HORIZON_M      12.0 /* added to the horizon */
-#define FARTHEST_M     600.0
-#define TALL_M         3.0   /* parts above this height are no obstacle for land vehicles */
-#define GAP_M          1.0   /* gap to obstacles at the sides and ahead */
-#define AIR_GAP_M      8.0   /* the same in the air, and above and below */
-#define LOW_FLIGHT_M   40.0  /* above this height no fixed object is an obstacle */
-#define BRAKE_SHARE    0.8   /* share of the hardest braking that it relies on */
-#define HARMLESS_SHARE 0.005 /* most of its resistance_j that a harmless object costs */
-#define YIELDS         0.1   /* fixed kinds with less rigidity bend aside */
-#define TURN_COST      0.25  /* of each radian of turning, in shares of the horizon */
-#define CHANGE_COST    0.10  /* of each radian off the last dodge, against wavering */
-#define SWEEP_COST     0.10  /* of a turn of 90 degrees off the present heading, at full speed */
-#define LEFT_COST      0.03  /* of turning left, so that two vehicles that meet both turn right */
-#define SHARP_SHARE    0.25  /* share of its speed in turns of 90 degrees and more */
-#define ROLLS_MPS      2.0   /* a faster vehicle does not turn in place */
-#define CREEP_M        0.5   /* it goes on so far while it turns past an obstacle beside it */
-#define STRAYS         0.05  /* how far bodies leave their course, as a share of the distance */
-#define GIVEN_WAY_S    2.5   /* the other is expected to give way if they meet later */
-#define CROSSING       0.94  /* cosine of 20 degrees: courses that differ by less do not cross */
-#define DEEPER_M       0.2   /* than a step that it climbs, a crater is an obstacle */
-#define BOWL_SHARE     1.15  /* of its radius, within which a crater's ground is too steep */
-#define ROUNDED_MPS    1e-4  /* more than the index's rounding of velocities */
+#define LOW_FLIGHT_M 40.0 /* above this height no fixed object is an obstacle */
+#define BRAKE_SHARE  0.8  /* share of the hardest braking that it relies on */
+#define TURN_COST    0.25 /* of each radian of turning, in shares of the horizon */
+#define CHANGE_COST  0.10 /* of each radian off the last dodge, against wavering */
+#define SWEEP_COST   0.10 /* of a turn of 90 degrees off the present heading, at full speed */
+#define LEFT_COST    0.03 /* of turning left, so that two vehicles that meet both turn right */
+#define SHARP_SHARE  0.25 /* share of its speed in turns of 90 degrees and more */
+#define ROLLS_MPS    2.0  /* a faster vehicle does not turn in place */
+#define CREEP_M      0.5  /* it goes on so far while it turns past an obstacle beside it */
+#define TOUCHES_M    0.1  /* a vehicle that reaches less into a wall only touches it */
+#define NARROW_M     0.4  /* the gap to a wall beside its way, where there is no more */
+#define STRAYS       0.05 /* how far bodies leave their course, as a share of the distance */
+#define GIVEN_WAY_S  2.5  /* the other is expected to give way if they meet later */
+#define CROSSING     0.94 /* cosine of 20 degrees: courses that differ by less do not cross */
+#define DEEPER_M     0.2  /* than a step that it climbs, a crater is an obstacle */
+#define BOWL_SHARE   1.15 /* of its radius, within which a crater's ground is too steep */
+#define ROUNDED_MPS  1e-4 /* more than the index's rounding of velocities */
 
 /* A patrol that finds no gentle way free for this share of the horizon goes over steep ground. */
 #define STEEP_FREE 0.5
@@ -51,6 +43,7 @@
 /* The fan: angles off the desired heading, with their sines and cosines. Direction PRESENT is the
  * present heading. */
 #define FAN             13
+#define FAN_BACK        7 /* backwards: as far as 35 degrees */
 #define PRESENT         FAN
 #define BOTH(value)     (value), (value)
 #define OPPOSITE(value) (value), -(value)
@@ -75,123 +68,16 @@ struct look {
     double speed_mps; /* along the fan: the speed that it can reach within a second */
     double horizon_m;
     double half_width, half_length, gap;
+    double strays;                 /* how far it leaves its course, as a share of the distance */
     double nose_m;                 /* how far it reaches ahead of its middle: its gun, too */
     double left_m, right_m;        /* and to the sides */
     double think_s;                /* until it decides again */
+    bool passes_standing;          /* others that stand do not count */
     double ahead_s;                /* by which the index may hold others further on their way */
     double x[FAN + 1], z[FAN + 1]; /* the fan's directions, unit */
     double free_m[FAN + 1];        /* how far each is free; at most the horizon */
     double steep[FAN];             /* what steep ground there costs */
 };
-
-/* --- what follows from the kinds ---------------------------------------------------------------*/
-
-/* The radius of the model's hulls that begin below TALL_M; the sphere's where spheres collide. */
-static double reach_of(const struct world *world, const struct kind *kind)
-{
-    double farthest = 0.0;
-    if (world->params->collision.shape != SHAPE_MODEL)
-        return kind->radius_m;
-    for (uint32_t h = 0; h < kind->hull_count; h++) {
-        const struct hull *hull = &world->hulls[kind->first_hull + h];
-        const struct vec3 *vertex = &world->hull_vertices[hull->first_vertex];
-        double low = INFINITY, level = 0.0;
-        for (uint32_t v = 0; v < hull->vertex_count; v++) {
-            low = maths_min(low, vertex[v].y);
-            level = maths_max(level, vertex[v].x * vertex[v].x + vertex[v].z * vertex[v].z);
-        }
-        if (low < TALL_M)
-            farthest = maths_max(farthest, level);
-    }
-    return sqrt(farthest);
-}
-
-/* How far the model of a kind reaches ahead of its middle, with its gun straight ahead. */
-static double nose_of(const struct world *world, const struct kind *kind)
-{
-    double farthest = 0.5 * kind->length_m;
-    for (uint32_t h = 0; h < kind->hull_count && world->params->collision.shape == SHAPE_MODEL;
-         h++) {
-        const struct hull *hull = &world->hulls[kind->first_hull + h];
-        farthest = maths_max(farthest, hull->centre.x + hull->half.x);
-    }
-    return farthest;
-}
-
-/* By the collider's impulses a bush bends, and an object that breaks costs the vehicle the object's
- * resistance times its rigidity. */
-static bool does_no_harm(const struct kind *vehicle, const struct kind *fixed)
-{
-    if (fixed->rigidity < YIELDS)
-        return true;
-    double energy = 0.5 * vehicle->mass_kg * vehicle->max_speed_mps * vehicle->max_speed_mps;
-    return energy > fixed->resistance_j &&
-           fixed->resistance_j * fixed->rigidity < HARMLESS_SHARE * vehicle->resistance_j;
-}
-
-static double gap_of(const struct kind *kind)
-{
-    return kind->domain == DOMAIN_AIR ? AIR_GAP_M : GAP_M;
-}
-
-/* How far it looks ahead at a speed [m]. */
-static double horizon_of(const struct kind *kind, double speed)
-{
-    double brake = BRAKES * kind->acceleration_mps2;
-    double horizon =
-        maths_max(speed * speed / (2.0 * brake), TURNS_AHEAD * speed / kind->turn_rate_rps);
-    return maths_min(FARTHEST_M,
-                     horizon + speed * REACT_S + HORIZON_M + 2.0 * (0.5 * kind->length_m));
-}
-
-/* How far it looks for other vehicles, which may come towards it [m]. */
-static double around_of(double horizon_m)
-{
-    return maths_min(FARTHEST_M, 2.0 * horizon_m);
-}
-
-int avoidance_init(struct avoidance *avoidance, const struct world *world)
-{
-    const uint32_t squares = world->terrain.squares.count;
-    *avoidance =
-        (struct avoidance){.occupied = calloc((squares + 63) / 64, sizeof *avoidance->occupied)};
-    if (!avoidance->occupied)
-        return -1;
-    uint32_t kinds = kind_of_files(world->kinds, world->counts.kinds);
-    for (uint32_t k = 0; k < kinds; k++) {
-        const struct kind *kind = &world->kinds[k];
-        if (kind->domain == DOMAIN_FIXED)
-            avoidance->reach_m[k] = reach_of(world, kind);
-        for (uint32_t o = 0; o < kinds && kind->domain != DOMAIN_FIXED; o++) {
-            if (world->kinds[o].domain == DOMAIN_FIXED && does_no_harm(kind, &world->kinds[o]))
-                avoidance->harmless[k] |= UINT64_C(1) << o;
-        }
-        if (kind->domain < DOMAIN_MUNITION) {
-            avoidance->reach_m[k] =
-                0.5 * sqrt(kind->length_m * kind->length_m + kind->width_m * kind->width_m);
-            avoidance->nose_m[k] = nose_of(world, kind);
-            avoidance->high_m[k] = (float)(0.5 * kind->height_m + AVOIDANCE_ROUNDED_M);
-            avoidance->gap_m[k] = kind->domain == DOMAIN_LAND
-                                      ? INFINITY
-                                      : (float)(gap_of(kind) + AVOIDANCE_ROUNDED_M);
-            avoidance->around_m[k] = around_of(horizon_of(kind, kind->max_speed_mps));
-            avoidance->slope[k] = ground_obstacles_slope(kind);
-            if (kind->domain == DOMAIN_LAND)
-                avoidance->fastest_mps = maths_max(avoidance->fastest_mps, kind->max_speed_mps);
-        }
-    }
-    for (uint32_t square = 0; square < squares; square++) {
-        if (world->reach_start[square + 1] > world->reach_start[square])
-            avoidance->occupied[square / 64] |= UINT64_C(1) << square % 64;
-    }
-    return 0;
-}
-
-void avoidance_free(struct avoidance *avoidance)
-{
-    free(avoidance->occupied);
-    avoidance->occupied = NULL;
-}
 
 /* --- the fan -----------------------------------------------------------------------------------*/
 
@@ -240,8 +126,9 @@ static void begin(struct look *look, const struct step_context *context, uint32_
     if (kind->domain != DOMAIN_AIR)
         look->think_s = context->dt_s * (double)cruise_start_think_frames(context, i);
     look->ahead_s = ahead_of(context);
-    look->gap = gap_of(kind);
-    look->horizon_m = horizon_of(kind, speed);
+    look->gap = avoidance_gap(kind);
+    look->strays = STRAYS;
+    look->horizon_m = avoidance_horizon(kind, speed);
     maths_sincos(desired->heading_rad, &look->sine, &look->cosine);
     direct(look, 0);
     maths_sincos(m->row[i].heading, &sine, &cosine);
@@ -343,38 +230,42 @@ static void limit_by_moving(struct look *look, double dx, double dz, double vx, 
 /* --- obstacles ---------------------------------------------------------------------------------*/
 
 /* Limits the directions by a rectangle about (dx, dz), relative to the vehicle: half its length in
- * the direction (ux, uz), half its width across. Along its walls the shadow of the rectangle is the
- * rectangle itself, so that a street between two long houses stays free. Of a wall that the vehicle
- * is beside already it keeps no gap. */
+ * the direction (ux, uz), half its width across. What counts is the part of it that is in the
+ * vehicle's way, so that a street between two long houses stays free, also for one that is askew in
+ * it. Of a wall that the vehicle is beside already it keeps no gap. */
 static void limit_by_box(struct look *look, double dx, double dz, double ux, double uz, double half,
                          double width)
 {
     for (int k = 0; k <= FAN; k += look->step) {
-        double cosine = fabs(ux * look->x[k] + uz * look->z[k]);
-        double sine = fabs(ux * look->z[k] - uz * look->x[k]);
-        double along = dx * look->x[k] + dz * look->z[k];
-        double right = dz * look->x[k] - dx * look->z[k], spread = half * sine + width * cosine;
-        double reach = half * cosine + width * sine, begins = along - reach - look->nose_m;
-        double gap = begins > 0.0 ? look->gap + STRAYS * begins : 0.0;
-        if (along > 0.0 && right - spread < look->right_m + gap &&
-            right + spread > -look->left_m - gap)
-            look->free_m[k] = maths_min(look->free_m[k], maths_max(0.0, begins - look->gap));
+        const double cosine = ux * look->x[k] + uz * look->z[k];
+        const double sine = uz * look->x[k] - ux * look->z[k];
+        const struct seen_box box = {.along = dx * look->x[k] + dz * look->z[k],
+                                     .right = dz * look->x[k] - dx * look->z[k],
+                                     .length_along = half * cosine,
+                                     .length_right = half * sine,
+                                     .width_along = width * -sine,
+                                     .width_right = width * cosine};
+        const double reach = fabs(box.length_along) + fabs(box.width_along);
+        const double begins = maths_max(0.0, box.along - reach - look->nose_m);
+        const double keeps[] = {-TOUCHES_M, NARROW_M, look->gap + look->strays * begins};
+        double ahead = INFINITY;
+        for (int n = 0; n < 3; n++) {
+            const double nearest =
+                seen_box_nearest(&box, -look->left_m - keeps[n], look->right_m + keeps[n]);
+            if (n == 0 || nearest > look->nose_m)
+                ahead = maths_min(ahead, nearest);
+        }
+        if (ahead < INFINITY)
+            look->free_m[k] =
+                maths_min(look->free_m[k], maths_max(0.0, ahead - look->nose_m - look->gap));
     }
 }
 
-/* Limits the directions by the hulls of a building. */
-static void limit_by_outline(struct look *look, const struct world *world,
-                             const struct fixed_object *object, double dx, double dz)
+/* Returns true if a fixed object reaches into a circle about the vehicle. */
+static bool is_near(const struct fixed_object *object, double dx, double dz, double radius_m)
 {
-    const struct kind *kind = &world->kinds[object->kind];
-    double sine, cosine;
-    maths_sincos(fixed_heading(object), &sine, &cosine);
-    for (uint32_t h = 0; h < kind->hull_count; h++) {
-        const struct hull *hull = &world->hulls[kind->first_hull + h];
-        double x = hull->centre.x, z = hull->centre.z;
-        limit_by_box(look, dx + x * sine + z * cosine, dz - x * cosine + z * sine, sine, -cosine,
-                     hull->half.x, hull->half.z);
-    }
+    const double most = radius_m + (double)object->radius_m;
+    return dx * dx + dz * dz <= most * most;
 }
 
 static void see_square(const struct step_context *context, uint32_t i, struct look *look,
@@ -382,33 +273,27 @@ static void see_square(const struct step_context *context, uint32_t i, struct lo
 {
     const struct world *world = context->world;
     const struct entities *m = context->m;
-    const uint8_t *damage = context->committed->fixed_damage;
-    uint64_t harmless = context->avoidance->harmless[m->row[i].kind];
     bool flies = look->kind->domain == DOMAIN_AIR;
     const uint32_t *objects;
     uint32_t count = world_reach(world, square, &objects);
     for (uint32_t n = 0; n < count; n++) {
         const struct fixed_object *object = &world->fixed[objects[n]];
         double dx = object->x - m->row[i].x, dz = object->z - m->row[i].z;
-        double most = look->horizon_m + (double)object->radius_m;
-        const struct kind *kind = &world->kinds[object->kind];
-        if (dx * dx + dz * dz > most * most || damage[objects[n]] >= DAMAGE_HIGH ||
-            (kind->outline ? does_no_harm(look->kind, kind) : harmless >> object->kind & 1u))
+        if (!is_near(object, dx, dz, look->horizon_m) || !avoidance_harms(context, i, objects[n]))
             continue;
         if (flies &&
             (double)object->y + (double)object->height_m + 0.5 * look->kind->height_m < m->row[i].y)
             continue;
-        if (kind->outline) {
-            if (world->params->collision.shape == SHAPE_MODEL)
-                limit_by_outline(look, world, object, dx, dz);
-            else
-                limit_by_standing(look, dx, dz, (double)object->radius_m);
-            continue;
+        const uint32_t boxes = flies ? 0 : avoidance_boxes(context, object);
+        for (uint32_t b = 0; b < boxes; b++) {
+            const struct avoidance_box_placed box = avoidance_box_of(context, object, b);
+            limit_by_box(look, box.x - m->row[i].x, box.z - m->row[i].z, box.ux, box.uz, box.half_m,
+                         box.half_width);
         }
-        limit_by_standing(look, dx, dz,
-                          flies ? fixed_index_of_fixed(object, world->kinds)
-                                : context->avoidance->reach_m[object->kind] *
-                                      fixed_scale(object, kind));
+        if (boxes == 0)
+            limit_by_standing(look, dx, dz,
+                              flies ? fixed_index_of_fixed(object, world->kinds)
+                                    : avoidance_disc(context, object));
     }
 }
 
@@ -427,28 +312,27 @@ static void see_fixed(const struct step_context *context, uint32_t i, struct loo
         }
 }
 
-/* Returns true if the row goes around a crater at this place, relative to the vehicle: its kind may
- * not get out of the bowl, or turns over in it. One that is in the bowl has to get out of it, and a
- * script may lead there. */
-static bool goes_around(const struct step_context *context, uint32_t i, const struct look *look,
-                        const struct crater *crater, double dx, double dz)
+bool avoidance_goes_around(const struct step_context *context, uint32_t i,
+                           const struct crater *crater)
 {
     const struct entities *m = context->m;
+    const struct kind *kind = &context->world->kinds[m->row[i].kind];
     const double radius = (double)crater->radius_m;
+    const double dx = crater->x - m->row[i].x, dz = crater->z - m->row[i].z;
     const double goal_x = crater->x - m->row[i].goal_x, goal_z = crater->z - m->row[i].goal_z;
-    return (double)crater->depth_m > look->kind->step_m + DEEPER_M &&
+    return (double)crater->depth_m > kind->step_m + DEEPER_M && !progress_stuck(context, i) &&
            dx * dx + dz * dz > radius * radius &&
            (m->row[i].behaviour != BEHAVIOUR_SCRIPT ||
             goal_x * goal_x + goal_z * goal_z > radius * radius);
 }
 
-/* Limits the directions by craters. A vehicle that is stuck again and again drives through them. */
+/* Limits the directions by craters. */
 static void see_craters(const struct step_context *context, uint32_t i, struct look *look)
 {
     const struct entities *m = context->m;
     const struct crater_index *craters = context->craters;
     const double most = look->horizon_m;
-    if (craters->count == 0 || look->kind->domain != DOMAIN_LAND || progress_stuck(context, i))
+    if (craters->count == 0 || look->kind->domain != DOMAIN_LAND)
         return;
     const struct gridsquare_box box =
         gridsquare_box_of(&craters->squares, m->row[i].x - most, m->row[i].z - most,
@@ -459,8 +343,7 @@ static void see_craters(const struct step_context *context, uint32_t i, struct l
             for (; link != 0; link = craters->links[link - 1].next) {
                 const struct crater *crater = &craters->craters[craters->links[link - 1].crater];
                 const double dx = crater->x - m->row[i].x, dz = crater->z - m->row[i].z;
-                if (dx * dx + dz * dz < most * most &&
-                    goes_around(context, i, look, crater, dx, dz))
+                if (dx * dx + dz * dz < most * most && avoidance_goes_around(context, i, crater))
                     limit_by_standing(look, dx, dz, BOWL_SHARE * (double)crater->radius_m);
             }
         }
@@ -486,6 +369,9 @@ static void see_vehicle(const struct step_context *context, uint32_t i, struct l
         return;
     struct vec3 off = vec3_sub(step_context_position(context, w, j), entities_position(m, i));
     struct vec3 velocity = step_context_velocity(context, w, j);
+    const double square = velocity.x * velocity.x + velocity.z * velocity.z;
+    if (look->passes_standing && square < ROOM_AROUND_STANDS_MPS * ROOM_AROUND_STANDS_MPS)
+        return;
     if (fabs(off.y) <= apart)
         limit_by_moving(look, off.x, off.z, velocity.x, velocity.z, reach);
 }
@@ -519,7 +405,7 @@ static void see_vehicles(const struct step_context *context, uint32_t i, struct 
     const struct entities *m = context->m;
     const struct neighbour_index_entry *entry;
     const double ahead_m = avoidance_ahead(context);
-    double most = around_of(look->horizon_m) + ahead_m;
+    double most = avoidance_around(look->horizon_m) + ahead_m;
     const struct neighbour_list *list = &context->neighbour_lists->list[i];
     bool listed = step_context_thinks(context, i) && list->count != NEIGHBOUR_LISTS_NONE;
     if (listed && most <= context->avoidance->around_m[m->row[i].kind] + ahead_m) {
@@ -554,7 +440,7 @@ static int best(const struct look *look, double dodge_rad, double heeds_steep)
     int found = 0;
     double most = -INFINITY;
     double sweep = SWEEP_COST * maths_min(1.0, look->present_mps / look->desired_mps);
-    for (int k = 0; k < FAN; k++) {
+    for (int k = 0; k < (look->sign < 0.0 ? FAN_BACK : FAN); k++) {
         double cosine = look->x[k] * look->x[PRESENT] + look->z[k] * look->z[PRESENT];
         double score = look->free_m[k] / look->horizon_m - TURN_COST * fabs(fan_rad[k]) -
                        CHANGE_COST * fabs(fan_rad[k] - dodge_rad) - sweep * (1.0 - cosine) -
@@ -622,7 +508,7 @@ static void see(const struct step_context *context, uint32_t i, struct look *loo
 static int choose_ground(const struct step_context *context, uint32_t i, struct look *look,
                          double heeds_steep)
 {
-    double dodge = (double)context->m->row[i].dodge;
+    double dodge = shunting_dodge(context->m, i);
     int direction = best(look, dodge, heeds_steep);
     for (int tries = 0; tries < FAN && look->kind->domain != DOMAIN_AIR; tries++) {
         const struct ground_way way = way_of(context, i, look, direction);
@@ -670,41 +556,118 @@ static double works_free(const struct step_context *context, uint32_t i, const s
     return ground_obstacles_works(context, i, &way);
 }
 
-/* Looks along the desired direction first: when it is free no other is better. */
-static void look_ahead(const struct step_context *context, uint32_t i,
-                       const struct desired_motion *desired)
+/* Sets the speed so that it can stop within free_m. */
+static void ease_to(const struct step_context *context, uint32_t i, const struct look *look,
+                    double ease, double free_m)
 {
-    struct entities *m = context->m;
-    struct look look = {0};
-    begin(&look, context, i, desired);
-    bool flies = look.kind->domain == DOMAIN_AIR;
+    if (free_m < look->horizon_m)
+        ease = maths_max(ease, 1.0 - stopping_speed(look, free_m) / look->desired_mps);
+    context->m->row[i].ease = (float)maths_clamp(ease, 0.0, 1.0);
+}
+
+/* Looks along the desired direction first: when it is free no other is better. Returns the
+ * direction, and how far it is free in look->free_m. */
+static int look_along(const struct step_context *context, uint32_t i, struct look *look)
+{
+    const struct entities *m = context->m;
+    bool flies = look->kind->domain == DOMAIN_AIR;
     bool low =
         !flies || m->row[i].y - kinematics_ground(context, m->row[i].x, m->row[i].z) < LOW_FLIGHT_M;
-    double ease = 1.0 - ground_speed(context, i, &look, desired) / look.desired_mps;
-    bool keeps = desired->speed_mps < 0.0 || desired->shunts;
-    int direction = keeps ? PRESENT : 0;
-    see(context, i, &look, low);
-    if (direction == 0 &&
-        (look.free_m[0] < look.horizon_m || (!flies && ground_hinders(context, i, &look))))
-        direction = choose(context, i, &look, low);
-    if (desired->shunts)
-        look.free_m[PRESENT] = maths_min(look.free_m[PRESENT], ground_free(context, i, &look));
-    if (direction != 0 && direction != PRESENT)
-        look.free_m[PRESENT] = maths_min(look.free_m[PRESENT], works_free(context, i, &look));
-    double free_m = look.free_m[direction], off = 0.0;
-    if (look.x[direction] * look.x[PRESENT] + look.z[direction] * look.z[PRESENT] < fan_cosine[1]) {
-        double turn_m = flies ? look.horizon_m : turn_free(&look, direction);
-        if (turn_m < stopping_way(&look) && turn_m < look.free_m[PRESENT]) {
+    see(context, i, look, low);
+    return look->free_m[0] < look->horizon_m || (!flies && ground_hinders(context, i, look))
+               ? choose(context, i, look, low)
+               : 0;
+}
+
+/* Turns to a direction no sooner than the way there is free. */
+static void turn_to(const struct step_context *context, uint32_t i, struct look *look,
+                    int direction, double ease, const struct desired_motion *desired)
+{
+    struct entities *m = context->m;
+    const bool flies = look->kind->domain == DOMAIN_AIR;
+    double free_m = look->free_m[direction], off = 0.0;
+    if (direction != 0)
+        look->free_m[PRESENT] = maths_min(look->free_m[PRESENT], works_free(context, i, look));
+    if (look->x[direction] * look->x[PRESENT] + look->z[direction] * look->z[PRESENT] <
+        fan_cosine[1]) {
+        double turn_m = flies ? look->horizon_m : turn_free(look, direction);
+        if (turn_m < stopping_way(look) && turn_m < look->free_m[PRESENT]) {
             direction = PRESENT; /* it slows down before it turns */
             off = maths_wrap_half(m->row[i].heading - desired->heading_rad);
         }
-        free_m = maths_min(free_m, maths_min(maths_max(turn_m, CREEP_M), look.free_m[PRESENT]));
+        free_m = maths_min(free_m, maths_min(maths_max(turn_m, CREEP_M), look->free_m[PRESENT]));
     }
-    if (free_m < look.horizon_m)
-        ease = maths_max(ease, 1.0 - stopping_speed(&look, free_m) / look.desired_mps);
-    if (!desired->shunts) /* backwards it only slows */
-        m->row[i].dodge = (float)(direction < FAN ? fan_rad[direction] : off);
-    m->row[i].ease = (float)maths_max(ease, 0.0);
+    m->row[i].dodge = (float)(direction < FAN ? fan_rad[direction] : off);
+    ease_to(context, i, look, ease, free_m);
+}
+
+/* --- to and fro --------------------------------------------------------------------------------*/
+
+/* Backs out: looks behind it as it looks ahead, and goes where that is free. */
+static void back_out(const struct step_context *context, uint32_t i, struct shunting_way *way,
+                     struct desired_motion *desired)
+{
+    struct look look = {0};
+    struct desired_motion back = *desired;
+    shunting_take(context, i, way, &back);
+    back.heading_rad = way->heading_rad;
+    begin(&look, context, i, &back);
+    look.gap = NARROW_M;
+    look.strays = 0.0; /* it drives at a walk */
+    int direction = look_along(context, i, &look);
+    way->heading_rad += fan_rad[direction];
+    shunting_take(context, i, way, desired);
+    ease_to(context, i, &look, 0.0, maths_min(look.free_m[direction], look.free_m[PRESENT]));
+}
+
+/* Takes a stroke, no faster than what moves and the ground in its direction allow. */
+static void take_stroke(const struct step_context *context, uint32_t i,
+                        const struct shunting_way *way, struct desired_motion *desired)
+{
+    struct look look = {.passes_standing = true};
+    shunting_take(context, i, way, desired);
+    begin(&look, context, i, desired);
+    see_vehicles(context, i, &look);
+    ease_to(
+        context, i, &look, 0.0,
+        maths_min(way->free_m, maths_min(look.free_m[PRESENT], ground_free(context, i, &look))));
+}
+
+/* Drives to and fro to a heading. Returns false if it need not, or cannot on its way. */
+static bool shunt(const struct step_context *context, uint32_t i, double heading_rad,
+                  struct desired_motion *desired)
+{
+    struct shunting_way way;
+    if (!shunting_looks(context, i, heading_rad, desired))
+        return false;
+    const struct shunting_room room = room_around(context, i);
+    if (!shunting_begins(context, i, &room, heading_rad, desired))
+        return false;
+    if (!shunting_choose(context, i, &room, heading_rad, desired, &way)) {
+        if (!desired->shunts)
+            return false;
+        context->m->row[i].ease = 1.0f;
+    } else if (way.backs_out) {
+        back_out(context, i, &way, desired);
+    } else {
+        take_stroke(context, i, &way, desired);
+    }
+    return true;
+}
+
+static void look_ahead(const struct step_context *context, uint32_t i,
+                       struct desired_motion *desired)
+{
+    struct look look = {0};
+    if (desired->shunts) {
+        (void)shunt(context, i, desired->heading_rad, desired);
+        return;
+    }
+    begin(&look, context, i, desired);
+    const double ease = 1.0 - ground_speed(context, i, &look, desired) / look.desired_mps;
+    const int direction = look_along(context, i, &look);
+    if (!shunt(context, i, desired->heading_rad + fan_rad[direction], desired))
+        turn_to(context, i, &look, direction, ease, desired);
 }
 
 static bool rolls(const struct entities *m, uint32_t i)
@@ -728,6 +691,8 @@ void avoidance_steer(const struct step_context *context, uint32_t i, struct desi
     }
     if (perception_looks_out(context, i))
         look_ahead(context, i, desired);
+    else
+        shunting_keep(context, i, desired);
     desired->heading_rad = maths_wrap_turn(desired->heading_rad + (double)m->row[i].dodge);
     desired->speed_mps *= 1.0 - (double)m->row[i].ease;
     if (desired->speed_mps > 0.0 && !desired->shunts && kind->domain != DOMAIN_SEA &&

@@ -14,11 +14,30 @@
 
 #define AVOIDANCE_ROUNDED_M 0.01 /* more than the index's rounding of positions */
 
+struct crater;
+struct fixed_object;
+
+/* A rectangle about the middle of a model, along its axes [m]. */
+struct avoidance_box {
+    double x, z; /* its middle */
+    double half_x, half_z;
+};
+
+/* The same of an object of the world. */
+struct avoidance_box_placed {
+    double x, z;               /* its middle */
+    double ux, uz;             /* the direction of its length, unit */
+    double half_m, half_width; /* half its length and half its width */
+};
+
 /* What follows from the kinds and the fixed objects. */
 struct avoidance {
     /* [m] Radius of the obstacle that a body of a kind is; of a fixed object, at the height of land
      * vehicles: a tree's trunk, not its crown. */
     double reach_m[KIND_COUNT_MAX];
+    /* Of fixed kinds: the rectangle around what a land vehicle meets of the model. One of a kind
+     * that is not so large, or of any where spheres collide, is empty: its objects are discs. */
+    struct avoidance_box box[KIND_COUNT_MAX];
     /* Of vehicle kinds [m]: how far the model reaches ahead of its middle, with its gun. */
     double nose_m[KIND_COUNT_MAX];
     /* Of vehicle kinds: a bit for each fixed kind that does not damage it. Kinds with an outline
@@ -43,6 +62,22 @@ void avoidance_free(struct avoidance *avoidance);
 /* Returns how far on its way an entry of the neighbour index may be, beyond what half a second is:
  * it is where its stretch ends (world/entity/cruise.h) [m]. */
 double avoidance_ahead(const struct step_context *context);
+
+/* Return how many rectangles a fixed object is for a land vehicle, 0 if it is a disc; the radius of
+ * the disc; and one of the rectangles [m, world]. */
+uint32_t avoidance_boxes(const struct step_context *context, const struct fixed_object *object);
+double avoidance_disc(const struct step_context *context, const struct fixed_object *object);
+struct avoidance_box_placed avoidance_box_of(const struct step_context *context,
+                                             const struct fixed_object *object, uint32_t n);
+
+/* Returns true if fixed object n stands and would harm row i. */
+bool avoidance_harms(const struct step_context *context, uint32_t i, uint32_t n);
+
+/* Returns true if row i goes around a crater: its kind may not get out of the bowl, or turns over
+ * in it. One that is in the bowl has to get out of it, and a script may lead there. One that is
+ * stuck again and again drives through. */
+bool avoidance_goes_around(const struct step_context *context, uint32_t i,
+                           const struct crater *crater);
 
 /* Looks if row i is due, and changes the desired motion by dodge and ease. */
 void avoidance_steer(const struct step_context *context, uint32_t i,

@@ -2,7 +2,7 @@
 #include "mover/agent/formation_keeping.h"
 
 #include "mover/agent/goal.h"
-#include "mover/agent/shunting.h"
+#include "mover/agent/driving/shunting.h"
 #include "world/entity/event.h"
 #include "world/entity/formation.h"
 #include "world/state.h"

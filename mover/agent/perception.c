@@ -5,7 +5,7 @@
 #include "mover/agent/fire_control.h"
 #include "mover/agent/goal.h"
 #include "mover/agent/losses.h"
-#include "mover/agent/progress.h"
+#include "mover/agent/driving/progress.h"
 #include "mover/agent/target_search.h"
 #include "mover/context/cruise_start.h"
 #include "world/entity/disabled.h"

@@ -4,7 +4,7 @@
 #include "mover/agent/perception.h"
 #include "mover/agent/driver_controls.h"
 #include "mover/agent/goal.h"
-#include "mover/agent/shunting.h"
+#include "mover/agent/driving/shunting.h"
 #include "mover/motion/kinematics.h"
 #include "world/entity/script.h"
 #include "world/state.h"
@@ -383,5 +383,6 @@ uint32_t script_player_percepts(const struct step_context *context, uint32_t i)
     const struct script *script = &context->world->scripts[context->m->row[i].order_arg];
     return script->reacts ? UINT32_MAX
                           : PERCEPTION_BIT(NO_FUEL) | PERCEPTION_BIT(BUMP) |
-                                PERCEPTION_BIT(TIME_OVER) | PERCEPTION_BIT(LEASE_OVER);
+                                PERCEPTION_BIT(TIME_OVER) | PERCEPTION_BIT(LEASE_OVER) |
+                                PERCEPTION_BIT(STALLED) | PERCEPTION_BIT(STUCK_FAST);
 }

@@ -88,7 +88,7 @@ struct desired_motion {
     double heading_rad;
     double speed_mps;  /* negative: backwards */
     double altitude_m; /* aircraft: above the ground; not when driven */
-    bool shunts;       /* it turns by driving to and fro (mover/agent/shunting.h) */
+    bool shunts;       /* it turns by driving to and fro (mover/agent/driving/shunting.h) */
     bool held;         /* by an agent's controls: `turn` says what heading_rad says */
     bool driven;       /* by a command; the members below are a driver's alone */
     enum gearing gear; /* land vehicles and ships */

@@ -119,7 +119,8 @@ enum damage { DAMAGE_NONE, DAMAGE_LOW, DAMAGE_MED, DAMAGE_HIGH, DAMAGE_DESTROYED
     X(float, elevate)   /* -1..1, when driven: gun up */                                           \
     X(uint8_t, bumped)  /* 1: ran into something in this frame */                                  \
     X(uint8_t, trigger) /* of the mover: the row's requests in this frame */                       \
-    X(uint8_t, stalled) /* how long it has driven and not got on (mover/agent/progress.c) */
+    X(uint8_t, stalled) /* how long it has driven and not got on (mover/agent/driving/progress.c)  \
+                         */
 
 /* clang-format off */
 enum entity_field {

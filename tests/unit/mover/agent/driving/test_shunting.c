@@ -1,5 +1,5 @@
 /* Vehicles on wheels turn by driving to and fro, never on the spot. */
-#include "mover/agent/shunting.h"
+#include "mover/agent/driving/shunting.h"
 
 #include "tests/support/steps.h"
 #include "world/entity/cruise.h"
@@ -164,6 +164,142 @@ static void test_wheels_turn_before_a_wall(void **state)
     }
 }
 
+/* Five houses on each side of a street to the north, whose walls are this far apart, and a sixth
+ * one across its southern end. */
+static void open_streets(double width_m, bool closed, const char *vehicles)
+{
+    char text[4096];
+    int length = snprintf(text, sizeof text, "collision = { shape = \"model\"; };\nobjects = (");
+    for (int n = 0; n < 10; n++)
+        length += snprintf(text + length, sizeof text - (size_t)length,
+                           "%s{ kind = \"building\"; at = [%.1f, %.1f]; heading_deg = 0.0; }",
+                           n > 0 ? "," : "", START + (n % 2 ? 1.0 : -1.0) * (6.6 + 0.5 * width_m),
+                           START - 36.0 + 18.0 * (n / 2));
+    if (closed)
+        length += snprintf(text + length, sizeof text - (size_t)length,
+                           ",{ kind = \"building\"; at = [%.1f, %.1f]; heading_deg = 90.0; }",
+                           START, START + 36.0 + 15.6);
+    snprintf(text + length, sizeof text - (size_t)length, "); %s", vehicles);
+    fixture_open(&f, text);
+}
+
+/* Returns true if a row gave up its order since it was stuck. */
+static bool tells_stuck(uint32_t row)
+{
+    for (uint32_t n = 0; n < fixture_event_count(&f, EVENT_AGENT); n++) {
+        const struct event_agent *agent = &fixture_event(&f, EVENT_AGENT, n)->agent;
+        if (agent->agent.id == steps_rows(&f).row[row].id && agent->to == BEHAVIOUR_IDLE &&
+            agent->because == REASON_STUCK)
+            return true;
+    }
+    return false;
+}
+
+/* One that faces the wrong way in a street gave up after some metres. */
+static void test_wheels_get_out_of_streets(void **state)
+{
+    static const char *const kinds[] = {"jeep", "truck"};
+    static const double wide[] = {5.0, 6.0, 8.0, 10.0, 14.0};
+    (void)state;
+    for (uint32_t n = 0; n < 20; n++) {
+        const bool closed = n / 10 != 0;
+        char vehicles[256];
+        snprintf(vehicles, sizeof vehicles,
+                 "vehicles = ( { kind = \"%s\"; at = [%.1f, %.1f]; heading_deg = 180.0; route = "
+                 "([%.1f, %.1f], [%.1f, %.1f]); } );",
+                 kinds[n % 2], START, START + 24.0, START, START - 200.0, START, START - 400.0);
+        open_streets(wide[n / 2 % 5], closed, vehicles);
+        double time_s = 0.0, back_mps = 0.0;
+        while (time_s < 120.0 && steps_rows(&f).row[0].z > START - 70.0) {
+            fixture_run(&f, HZ);
+            const struct entities e = steps_rows(&f);
+            back_mps = maths_max(back_mps, -forward_of(&e, 0));
+            time_s += 1.0;
+        }
+        print_message("# figures: %s out of a %s of %.0f m after %.0f s, backwards at up to %.1f "
+                      "m/s\n",
+                      kinds[n % 2], closed ? "dead end" : "street", wide[n / 2 % 5], time_s,
+                      back_mps);
+        assert_true(time_s < 120.0 && back_mps < 3.1);
+        assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 0);
+        fixture_close(&f);
+    }
+}
+
+/* A step of a script that gives a heading did not end in alleys. */
+static void test_wheels_face_a_heading_in_an_alley(void **state)
+{
+    static const char *const kinds[] = {"jeep", "truck"};
+    static const double wide[] = {8.0, 10.0, 14.0};
+    (void)state;
+    for (uint32_t n = 0; n < 6; n++) {
+        char vehicles[320];
+        snprintf(
+            vehicles, sizeof vehicles,
+            "scripts = ( { name = \"s\"; steps = ( { face_deg = 180.0; }, { face_deg = 85.0; } "
+            "); } );\n"
+            "vehicles = ( { kind = \"%s\"; at = [%.1f, %.1f]; heading_deg = 0.0; script = "
+            "\"s\"; } );",
+            kinds[n % 2], START, START + 20.0);
+        open_streets(wide[n / 2], true, vehicles);
+        double time_s = 0.0;
+        for (; time_s < 240.0 && steps_rows(&f).row[0].order != BEHAVIOUR_IDLE; time_s += 1.0)
+            fixture_run(&f, HZ);
+        print_message("# figures: %s turned twice in an alley of %.0f m in %.0f s\n", kinds[n % 2],
+                      wide[n / 2], time_s);
+        assert_true(fabs(maths_wrap_half(steps_rows(&f).row[0].heading - 85.0 * RAD_PER_DEG)) <
+                    0.02);
+        assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 0);
+        assert_false(tells_stuck(0));
+        fixture_close(&f);
+    }
+}
+
+/* In a yard of 6 x 17 m a truck cannot turn about, and says so. */
+static void test_a_heading_that_is_not_possible_is_told(void **state)
+{
+    (void)state;
+    fixture_open(
+        &f, "world = { seed = 2; capacity = 64; };\n"
+            "collision = { shape = \"model\"; };\n"
+            "objects = ( { kind = \"building\"; at = [24990.4, 25000.0]; heading_deg = 0.0; },"
+            "{ kind = \"building\"; at = [25009.6, 25000.0]; heading_deg = 0.0; },"
+            "{ kind = \"building\"; at = [25000.0, 24984.4]; heading_deg = 90.0; },"
+            "{ kind = \"building\"; at = [25000.0, 25015.6]; heading_deg = 90.0; } );\n"
+            "scripts = ( { name = \"s\"; steps = ( { face_deg = 180.0; }, { wait_s = 900.0; } ); } "
+            ");\n"
+            "vehicles = ( { kind = \"truck\"; at = [25000.0, 25000.0]; heading_deg = 0.0; script = "
+            "\"s\"; } );");
+    double time_s = 0.0;
+    for (; time_s < 600.0 && !tells_stuck(0); time_s += 1.0)
+        fixture_run(&f, HZ);
+    print_message("# figures: a truck in a yard gives up after %.0f s\n", time_s);
+    assert_true(time_s > 40.0 && time_s < 600.0);
+    assert_int_equal(steps_rows(&f).row[0].behaviour, BEHAVIOUR_IDLE);
+    fixture_close(&f);
+}
+
+/* A truck that turned between tanks 11 m away ran into one of them. */
+static void test_it_turns_between_vehicles(void **state)
+{
+    (void)state;
+    fixture_open(
+        &f,
+        "collision = { shape = \"model\"; };\nscripts = ( { name = \"s\"; steps = ( { face_deg = "
+        "180.0; }, { face_deg = 10.0; }, { face_deg = 265.0; } ); } );\n"
+        "vehicles = ( { kind = \"truck\"; at = [25000.0, 25000.0]; heading_deg = 45.0; script = "
+        "\"s\"; }, { kind = \"tank\"; at = [25011.0, 25000.0]; heading_deg = 0.0; behaviour = "
+        "\"idle\"; }, { kind = \"tank\"; at = [24989.0, 25000.0]; heading_deg = 0.0; behaviour "
+        "= \"idle\"; }, { kind = \"tank\"; at = [25000.0, 25011.0]; heading_deg = 90.0; "
+        "behaviour = \"idle\"; }, { kind = \"tank\"; at = [25000.0, 24989.0]; heading_deg = "
+        "90.0; behaviour = \"idle\"; } );");
+    for (int second = 0; second < 120 && steps_rows(&f).row[0].order != BEHAVIOUR_IDLE; second++)
+        fixture_run(&f, HZ);
+    assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 0);
+    assert_true(fabs(maths_wrap_half(steps_rows(&f).row[0].heading - 265.0 * RAD_PER_DEG)) < 0.02);
+    fixture_close(&f);
+}
+
 /* Returns where a row heads, also if it cruises. */
 static double heading_of(uint32_t row, double hz)
 {
@@ -251,6 +387,10 @@ int main(void)
         cmocka_unit_test(test_tracks_face_a_heading_on_the_spot),
         cmocka_unit_test(test_wheels_get_to_a_point_beside_them),
         cmocka_unit_test(test_wheels_turn_before_a_wall),
+        cmocka_unit_test(test_wheels_get_out_of_streets),
+        cmocka_unit_test(test_wheels_face_a_heading_in_an_alley),
+        cmocka_unit_test(test_a_heading_that_is_not_possible_is_told),
+        cmocka_unit_test(test_it_turns_between_vehicles),
         cmocka_unit_test(test_no_patrol_turns_tighter),
         cmocka_unit_test(test_patrols_of_small_areas_stay_there),
     };

@@ -4,8 +4,8 @@
  * against sliding and turning over; a way down on which the brakes hold less; the bends of its
  * route; and being thrown about. It brakes in time: within its way to a stop it looks at four
  * places of the ground and at the next bends. Pure; any thread. */
-#ifndef JOLON_MOVER_AGENT_DRIVING_PACE_H
-#define JOLON_MOVER_AGENT_DRIVING_PACE_H
+#ifndef JOLON_MOVER_AGENT_DRIVING_DRIVING_PACE_H
+#define JOLON_MOVER_AGENT_DRIVING_DRIVING_PACE_H
 
 #include "mover/context/step_context.h"
 

@@ -1,6 +1,6 @@
 /* Whether a vehicle gets on. Writes the field stalled of row i. Any thread, each its own row. */
-#ifndef JOLON_MOVER_AGENT_PROGRESS_H
-#define JOLON_MOVER_AGENT_PROGRESS_H
+#ifndef JOLON_MOVER_AGENT_DRIVING_PROGRESS_H
+#define JOLON_MOVER_AGENT_DRIVING_PROGRESS_H
 
 #include "mover/context/step_context.h"
 
@@ -9,6 +9,9 @@
  * it wants. Returns true when that has lasted for 3 s, or for 20 s where a land vehicle stands
  * since no way before it is free, and counts from 0 again. For each decision once. */
 bool progress_stalled(const struct step_context *context, uint32_t i);
+
+/* Returns true if it was stuck and has not got on since then. */
+bool progress_backed_off(const struct step_context *context, uint32_t i);
 
 /* Returns true if it was stuck twice or more without getting on in between. */
 bool progress_stuck(const struct step_context *context, uint32_t i);

@@ -1,6 +1,6 @@
 /* How fast crews drive on slopes, in bends and when they are thrown about, and that trucks come
  * down a mountain on their wheels. */
-#include "mover/agent/driving_pace.h"
+#include "mover/agent/driving/driving_pace.h"
 
 #include "tests/support/steps.h"
 #include "world/entity/event.h"

@@ -1,5 +1,5 @@
 /* Slopes, bends and jolts, each as a speed at a place ahead. */
-#include "mover/agent/driving_pace.h"
+#include "mover/agent/driving/driving_pace.h"
 
 #include "mover/motion/drivetrain.h"
 #include "mover/motion/kinematics.h"

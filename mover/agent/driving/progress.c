@@ -1,5 +1,5 @@
 /* Compares the speed of a vehicle with its throttle, and finds those that wait for ever. */
-#include "mover/agent/progress.h"
+#include "mover/agent/driving/progress.h"
 
 #include "world/entity/persistent_contact.h"
 #include "world/maths/random.h"
@@ -87,6 +87,12 @@ static bool gets_on(const struct step_context *context, uint32_t i, double speed
            !touches(context, i);
 }
 
+/* Returns true if it is on the way back from where a step of its script did not get on. */
+static bool is_aside(const struct entities *m, uint32_t i)
+{
+    return m->row[i].behaviour == BEHAVIOUR_BACK_OFF && m->row[i].order == BEHAVIOUR_SCRIPT;
+}
+
 bool progress_stalled(const struct step_context *context, uint32_t i)
 {
     struct entities *m = context->m;
@@ -100,7 +106,7 @@ bool progress_stalled(const struct step_context *context, uint32_t i)
     }
     if (gets_on(context, i, sqrt(m->row[i].vx * m->row[i].vx + m->row[i].vz * m->row[i].vz),
                 wanted)) {
-        m->row[i].stalled = 0;
+        m->row[i].stalled &= is_aside(m, i) ? (uint8_t)~STALLED_COUNT : 0u;
         return false;
     }
     if (!drives)
@@ -112,6 +118,11 @@ bool progress_stalled(const struct step_context *context, uint32_t i)
         patience += WAY_SHARE * maths_max(SLOW_MPS, SLOW_SHARE * wanted) /
                     maths_max(kind->acceleration_mps2, 0.01);
     return count_on(context, i, think_s, patience);
+}
+
+bool progress_backed_off(const struct step_context *context, uint32_t i)
+{
+    return (context->m->row[i].stalled & ~STALLED_COUNT) != 0;
 }
 
 bool progress_stuck(const struct step_context *context, uint32_t i)

@@ -1,5 +1,5 @@
 /* Vehicles that do not get on: they give up, back off and go around. */
-#include "mover/agent/progress.h"
+#include "mover/agent/driving/progress.h"
 
 #include "tests/support/steps.h"
 #include "world/entity/persistent_contact.h"
