@@ -205,7 +205,8 @@ static const struct key step_keys[] = {
         NUMBER("altitude_m", T, altitude_m, 0, 20000, NULL, .unit = "m", .unset = "as before",
                .meaning = "The height of an aircraft above the ground from this step on. It stands "
                           "beside `go`, `arrive`, `face_deg` or `wait_s`, or alone in a step that "
-                          "ends at that height."),
+                          "ends at that height. A helicopter that leans needs 3.7 m, a `helo-cow` "
+                          "2.7 m: less is refused, and 0 sets it down."),
 };
 KEY_TABLE(schema_step, "steps", step_keys, T, STEP_KEY_COUNT);
 #undef T

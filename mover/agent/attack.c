@@ -51,15 +51,13 @@ static double hover_m(const struct step_context *context, uint32_t i, double sha
                      fire_control_outranges_m(context, i, m->row[i].target_slot));
 }
 
-/* Comes to where it hovers before air defence no faster than it can stop there. */
-static void stay_away(const struct step_context *context, uint32_t i, const struct kind *kind,
-                      const struct aim *aim, struct desired_motion *desired)
+/* Comes to where it hovers no faster than it can stop there. */
+static void stop_there(const struct kind *kind, const struct aim *aim, double distance,
+                       struct desired_motion *desired)
 {
-    double safe_m = fire_control_outranges_m(context, i, context->m->row[i].target_slot);
-    double way_m = maths_max(aim->distance - safe_m, 0.0);
-    if (safe_m > 0.0)
-        desired->speed_mps =
-            maths_min(desired->speed_mps, STOP_MPS + sqrt(2.0 * climb_limits_brake(kind) * way_m));
+    double way_m = maths_max(aim->distance - distance, 0.0);
+    desired->speed_mps =
+        maths_min(desired->speed_mps, STOP_MPS + sqrt(2.0 * climb_limits_brake(kind) * way_m));
 }
 
 /* A helicopter hovers high enough to see its target, fires, and changes sides behind the crests. */
@@ -71,7 +69,7 @@ static void hover(const struct step_context *context, uint32_t i, const struct k
     double phase = round - floor(round);
     bool near = aim->distance <= distance;
     stand_off(kind, aim, distance, desired);
-    stay_away(context, i, kind, aim, desired);
+    stop_there(kind, aim, distance, desired);
     desired->altitude_m = (near ? POP_UP_SHARE : LOW_SHARE) * kind->cruise_altitude_m;
     if (near && phase < HOVER_SHARE && !aim->seen)
         desired->speed_mps = phase < POP_UP_PHASE ? 0.0 : desired->speed_mps;

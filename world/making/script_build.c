@@ -17,6 +17,7 @@
 #include <string.h>
 
 #define IN_TIME_SHARE 1.001 /* of full speed: tolerance for rounding */
+#define LEANS         0.125 /* of a helicopter's length, by which its nose or its tail goes down */
 #define THERE_M       1.0   /* a vehicle this near to its first point is there at time 0 */
 
 /* A script that is being copied to a vehicle. */
@@ -165,6 +166,23 @@ static int check_ability(const struct copy *copy, const struct scenario_step *fr
     return 0;
 }
 
+/* Checks whether a helicopter can fly so low: it leans to gain and lose speed, and its nose or its
+ * tail would touch the ground. */
+static int check_height(const struct copy *copy, const struct scenario_step *from,
+                        const struct script_step *step)
+{
+    const struct kind *kind = &copy->built->scenario->kinds[copy->group->kind];
+    double least = ceil(10.0 * (LEANS * kind->length_m - kind->low_m)) / 10.0;
+    if (!kind_hovers(kind) || step->type == STEP_BEHAVIOUR || step->type == STEP_CONTROLS ||
+        step->altitude_m >= least || step->altitude_m <= 0.0)
+        return 0;
+    return error_text_set(copy->error,
+                          "%s:%d: script \"%s\": altitude_m = %.1f: the nose of a %s that leans "
+                          "would touch the ground; right would be: %.1f or more, or 0 to set down",
+                          file_of(copy), from->line, copy->from->name, step->altitude_m, kind->name,
+                          least);
+}
+
 static int copy_step(const struct copy *copy, uint32_t index, double *altitude_m,
                      struct script_step *step)
 {
@@ -190,7 +208,9 @@ static int copy_step(const struct copy *copy, uint32_t index, double *altitude_m
             file_of(copy), from->line, copy->from->name, from->target);
     if (step->type == STEP_BEHAVIOUR && give_order(copy, from, step) != 0)
         return -1;
-    return check_ability(copy, from, step) != 0 ? -1 : check_ground(copy, from, step);
+    if (check_ability(copy, from, step) != 0 || check_height(copy, from, step) != 0)
+        return -1;
+    return check_ground(copy, from, step);
 }
 
 /* Sets for each step the one that cuts it off. Returns the last begin time. */

@@ -164,6 +164,13 @@ static void test_what_a_kind_cannot_do_is_refused(void **state)
     check_build("scripts = ( { name = \"a\"; steps = ( { stop = true; } ); } );\n"
                 "vehicles = ( { kind = \"jet\"; script = \"a\"; } );",
                 "script \"a\": stop = true: a jet cannot stand; right would be: wait_s");
+    check_build(
+        "collision = { shape = \"model\"; };\n"
+        "scripts = ( { name = \"a\"; steps = ( { go = [25000, 25000]; altitude_m = 3.0; } ); "
+        "} );\n"
+        "vehicles = ( { kind = \"helicopter\"; at = [24000, 25000]; script = \"a\"; } );",
+        "script \"a\": altitude_m = 3.0: the nose of a helicopter that leans would touch the "
+        "ground; right would be: 3.7 or more, or 0 to set down");
 }
 
 int main(void)

@@ -116,6 +116,31 @@ static void test_a_helicopter_changes_sides_low_and_fires_from_above(void **stat
     assert_true(fired_low < INFINITY && fired_low > low);
 }
 
+/* It comes at 70 m/s and hovers at 0.45 of its range, 1,125 m from its target. It flew on to 830.
+ */
+static void test_a_helicopter_stops_where_it_hovers(void **state)
+{
+    uint32_t target =
+        steps_put(&f, "truck", (struct vec3){25000.0, 100.0, 25000.0}, FORCE_RED, BEHAVIOUR_HOLD);
+    uint32_t row = steps_put(&f, "helicopter", (struct vec3){25000.0, 145.0, 28500.0}, FORCE_BLUE,
+                             BEHAVIOUR_IDLE);
+    double away = INFINITY, fastest = 0.0;
+    (void)state;
+    steps_kind(&f, "truck")->resistance_j = 1e12;
+    steps_kind(&f, "truck")->mass_kg = 1e12;
+    attack(row, target);
+    for (uint32_t frame = 0; frame < 120 * HZ; frame++) {
+        fixture_run(&f, 1);
+        const struct vec3 off = vec3_sub(steps_position(&f, row), steps_position(&f, target));
+        away = sqrt(off.x * off.x + off.z * off.z);
+        fastest = maths_max(fastest, steps_speed(&f, row));
+        if (fastest > 50.0 && steps_speed(&f, row) < 2.0)
+            break;
+    }
+    print_message("stops %.0f m from its target after %.0f m/s\n", away, fastest);
+    assert_true(fastest > 50.0 && away > 1050.0 && away < 1200.0);
+}
+
 /* The gun reaches 1,600 m, rockets reach 2,500. After twelve the helicopter flies home. */
 static void test_a_helicopter_stays_out_of_reach_of_air_defence(void **state)
 {
@@ -440,6 +465,7 @@ int main(void)
         TEST(test_jets_that_attack_fire_within_a_minute),
         TEST(test_a_jet_extends_after_its_shot_and_flies_home_after_two),
         TEST(test_a_helicopter_changes_sides_low_and_fires_from_above),
+        TEST(test_a_helicopter_stops_where_it_hovers),
         TEST(test_a_helicopter_stays_out_of_reach_of_air_defence),
         TEST(test_flak_fires_at_aircraft_and_near_ground_targets),
         TEST(test_aircraft_evade_flak),

@@ -321,6 +321,39 @@ static void test_aircraft_keep_the_height_of_their_steps(void **state)
     fixture_close(&f);
 }
 
+/* At 3 m the nose of a helicopter touched the ground as it leaned, and it stood there for ever. A
+ * lower height than these is refused. */
+static void test_helicopters_fly_at_their_least_height(void **state)
+{
+    static const char *const kinds[] = {"helicopter", "helo-cow"};
+    static const double least_m[] = {3.7, 2.7};
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        char text[1024];
+        snprintf(
+            text, sizeof text,
+            "collision = { shape = \"model\"; };\n"
+            "scripts = ( { name = \"s\"; steps = ( { go = [25000.0, 24600.0]; altitude_m = %.1f; "
+            "}, { go = [25300.0, 24700.0]; }, { face_deg = 90.0; }, { go = [25200.0, 24700.0]; "
+            "speed_mps = 10.0; }, { wait_s = 5.0; }, { go = [25100.0, 25000.0]; speed_mps = "
+            "50.0; }, { go = [25100.0, 25600.0]; }, { stop = true; } ); } );\n"
+            "vehicles = ( { kind = \"%s\"; at = [25000.0, 25000.0]; altitude_m = 20.0; "
+            "heading_deg = 180.0; script = \"s\"; } );",
+            least_m[k], kinds[k]);
+        fixture_open(&f, text);
+        for (int second = 0; second < 240 && steps_rows(&f).row[0].order != BEHAVIOUR_IDLE;
+             second++) {
+            fixture_run(&f, HZ);
+            assert_false(steps_rows(&f).row[0].flags & ENTITY_FLAG_LANDED);
+            assert_int_equal(steps_rows(&f).row[0].damage, DAMAGE_NONE);
+        }
+        assert_int_equal(steps_rows(&f).row[0].order, BEHAVIOUR_IDLE);
+        assert_int_equal(steps_rows(&f).row[0].leg, 7);
+        assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 0);
+        fixture_close(&f);
+    }
+}
+
 static void test_a_step_gives_it_back_to_its_agent(void **state)
 {
     (void)state;
@@ -440,6 +473,7 @@ int main(void)
         cmocka_unit_test(test_controls_are_held_for_their_time),
         cmocka_unit_test(test_a_ship_goes_astern_for_its_script),
         cmocka_unit_test(test_aircraft_keep_the_height_of_their_steps),
+        cmocka_unit_test(test_helicopters_fly_at_their_least_height),
         cmocka_unit_test(test_a_step_gives_it_back_to_its_agent),
         cmocka_unit_test(test_scripts_repeat),
         cmocka_unit_test(test_it_reacts_only_when_it_shall),
