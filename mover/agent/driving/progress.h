@@ -10,7 +10,8 @@
  * since no way before it is free, and counts from 0 again. For each decision once. */
 bool progress_stalled(const struct step_context *context, uint32_t i);
 
-/* Returns true if it was stuck and has not got on since then. */
+/* Returns true if it was stuck and has not got on since then. One on a script does not get on while
+ * it backs off. */
 bool progress_backed_off(const struct step_context *context, uint32_t i);
 
 /* Returns true if it was stuck twice or more without getting on in between. */
