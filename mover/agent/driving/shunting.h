@@ -8,7 +8,7 @@
  * where it wants to go, until it has room. It does so, too, when its goal is within its turning
  * circle, and when it is to turn where it is.
  *
- * The columns keep a stroke from decision to decision. The sign of the throttle says if it goes
+ * The fields keep a stroke from decision to decision. The sign of the throttle says if it goes
  * forwards or backwards, also that of a throttle of 0. The dodge has a full turn more to the side
  * to which the vehicle turns, and two where it drives straight on. */
 #ifndef JOLON_MOVER_AGENT_DRIVING_SHUNTING_H
