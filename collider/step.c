@@ -130,8 +130,8 @@ static void find_moving(const struct step *step, uint32_t block, struct moving_r
     for (uint32_t n = 0; !moving->all && n < ROW_BLOCK_WORDS; n++) {
         for (uint64_t left = written[n]; left != 0; left &= left - 1) {
             uint32_t row = first + n * 64 + (uint32_t)__builtin_ctzll(left);
-            bool moves =
-                row < step->used && (row >= old || pose_differs(&m->row[row], &w->row[row]));
+            bool moves = row < step->used &&
+                         (row >= old || resting_records_pose_differs(&m->row[row], &w->row[row]));
             moving->row[n] |= moves ? left & -left : 0;
         }
         count += (uint32_t)__builtin_popcountll(moving->row[n]);

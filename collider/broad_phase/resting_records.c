@@ -19,7 +19,7 @@
      FIELD_BIT(cruise_rps) | FIELD_BIT(cruise_mps2) | FIELD_BIT(cruise_climb_mps2) |               \
      FIELD_BIT(cruise_pitch_rps) | FIELD_BIT(cruise_roll_rps))
 
-bool pose_differs(const struct entity *a, const struct entity *b)
+bool resting_records_pose_differs(const struct entity *a, const struct entity *b)
 {
     uint64_t fields = 0;
     if (memcmp((const unsigned char *)&a->x, (const unsigned char *)&b->x, sizeof a->x) != 0)

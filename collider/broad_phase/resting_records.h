@@ -20,7 +20,7 @@
 
 /* Returns true if two rows differ, bit by bit, in a field from which the records of bodies follow:
  * in pose or stretch. */
-bool pose_differs(const struct entity *a, const struct entity *b);
+bool resting_records_pose_differs(const struct entity *a, const struct entity *b);
 
 /* The rows of a block that do not rest in this frame: whose record may not be that of the frame
  * before. */

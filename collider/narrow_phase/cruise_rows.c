@@ -144,7 +144,8 @@ static bool comes(const struct contact_input *input, uint32_t row)
     const struct resting_records *resting = &input->broad->resting;
     return input->broad->wider[row] != BODY_BOX_EXACT || !body_motion_old(motion, row) ||
            ((resting_records_awake(resting, row) || resting_records_written(resting, row)) &&
-            pose_differs(&motion->committed->entities.row[row], &motion->next->entities.row[row]));
+            resting_records_pose_differs(&motion->committed->entities.row[row],
+                                         &motion->next->entities.row[row]));
 }
 
 /* Returns true if neither row of a pair comes anywhere: whether they meet was found before. */
