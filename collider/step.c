@@ -141,7 +141,7 @@ static void find_moving(const struct step *step, uint32_t block, struct moving_r
 
 /* Copies the rows of a block in which the next buffer, which holds the frame before the committed
  * one, may differ from the moved table: those that the mover wrote in this frame and in the last
- * one, and those that responses wrote in the last one. */
+ * one, and those that responses wrote in the last one. A row that comes into use is written. */
 static void take_stale(const struct step *step, uint32_t block)
 {
     const uint64_t *before = step->collider->written[step->committed->head->frame & 1];

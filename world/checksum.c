@@ -82,6 +82,8 @@ void table_hash_written(struct table table, const struct entities *before, uint3
     for (uint32_t w = 0; w * 64 < used; w++) {
         for (uint64_t left = written[w]; left != 0; left &= left - 1) {
             uint32_t row = w * 64 + (uint32_t)__builtin_ctzll(left);
+            if (row >= used)
+                break;
             table.hashes[row / CHECKSUM_ROWS] += entity_hash_change(table.entities, before, row);
         }
     }
@@ -101,8 +103,11 @@ void table_take_rows(struct table to, struct table from, uint32_t block, const u
 {
     uint32_t row[CHECKSUM_ROWS], count = 0;
     for (uint32_t w = 0; w < ROW_BLOCK_WORDS; w++) {
-        for (uint64_t left = bits[w]; left != 0; left &= left - 1)
-            row[count++] = block * CHECKSUM_ROWS + w * 64 + (uint32_t)__builtin_ctzll(left);
+        for (uint64_t left = bits[w]; left != 0; left &= left - 1) {
+            uint32_t next = block * CHECKSUM_ROWS + w * 64 + (uint32_t)__builtin_ctzll(left);
+            if (next < to.entities->capacity)
+                row[count++] = next;
+        }
     }
     for (uint32_t n = 0; n < count + ROWS_AHEAD; n++) {
         if (n < count) {
@@ -201,8 +206,8 @@ void state_seal(struct state *state, uint32_t fixed_count)
 {
     uint32_t used = state->head->used;
     table_hash(state_table(state), 0, used, NULL);
-    if (state->written)
-        memset(state->written, 0xff, written_bytes(state->entities.capacity));
+    for (uint32_t row = 0; state->written && row < used; row++)
+        state->written[row / 64] |= (uint64_t)1 << row % 64;
     state->head->checksum = checksum_with(state, rows_hash(state->hashes, used), fixed_count);
 }
 

@@ -60,7 +60,8 @@ void table_hash_written(struct table table, const struct entities *before, uint3
  * different blocks have the same hash with a probability of 2^-64. */
 void table_take(struct table to, struct table from, uint32_t block, uint32_t used, bool known);
 
-/* The same if the two blocks differ at most in the rows of these bits, [ROW_BLOCK_WORDS]. */
+/* The same if the two blocks differ at most in the rows of these bits, [ROW_BLOCK_WORDS]. Bits come
+ * from shared memory: those beyond the capacity are passed over. */
 void table_take_rows(struct table to, struct table from, uint32_t block, const uint64_t *bits);
 
 /* Returns the fields in which two rows differ, bit by bit. */

@@ -73,7 +73,8 @@ struct state {
     struct entities entities;
     uint64_t *hashes; /* of the blocks of rows (checksum.h); a reader's copy has none: NULL */
     /* A bit for each row, of whole blocks; in no checksum. A row without it is as in the moved
-     * table from which the collider made the frame, to the bit. A reader's copy has none: NULL. */
+     * table from which the collider made the frame, to the bit. Bits of rows that are not in use
+     * mean nothing. A reader's copy has none: NULL. */
     uint64_t *written;
     uint8_t *fixed_damage; /* [counts.fixed] as in world/terrain/fallen.h */
     struct persistent_contact

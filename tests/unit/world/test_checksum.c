@@ -245,11 +245,26 @@ static void test_rows_that_differ_are_taken(void **state)
     assert_true(same());
 }
 
+/* Bits are no part of a checksum: none leads beyond the rows. */
+static void test_no_row_beyond_the_table_is_taken(void **state)
+{
+    uint64_t bits[ROW_BLOCK_WORDS];
+    (void)state;
+    memset(bits, 0xff, sizeof bits);
+    b.rows.capacity = ROWS - 50;
+    for (uint32_t row = 2 * CHECKSUM_ROWS; row < ROWS; row++)
+        a.rows.row[row].x += 1.0;
+    table_take_rows(table_of(&b), table_of(&a), 2, bits);
+    assert_true(b.rows.row[ROWS - 51].x == a.rows.row[ROWS - 51].x);
+    assert_true(b.rows.row[ROWS - 50].x != a.rows.row[ROWS - 50].x);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         TABLES(test_a_table_takes_blocks_that_differ),
         TABLES(test_rows_that_differ_are_taken),
+        TABLES(test_no_row_beyond_the_table_is_taken),
         TABLES(test_fields_that_differ_are_named),
         TABLES(test_what_is_known_to_be_the_same_is_not_copied),
         TABLES(test_rows_that_were_written_are_added_to_the_hashes),
