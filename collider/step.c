@@ -47,9 +47,10 @@ int collider_init(struct collider *collider, const struct world *world,
         island_init(&collider->island, world) != 0 ||
         contact_table_init(&collider->table, world) != 0 ||
         resting_init(&collider->resting, world, workers) != 0 ||
-        free_bodies_init(&collider->free, world, workers) != 0 ||
+        free_bodies_init(&collider->free, world) != 0 ||
         end_guard_init(&collider->guard, world, workers) != 0 ||
         sphere_parting_init(&collider->spheres, world) != 0 ||
+        aircraft_parting_init(&collider->aircraft, world, workers) != 0 ||
         charges_init(&collider->charges, world) != 0 ||
         pair_list_init(&collider->pairs, pair_filter_pairs_first(world)) != 0 ||
         pair_list_init(&collider->ends, 2 * (uint64_t)pair_filter_pairs_first(world)) != 0 ||
@@ -78,6 +79,7 @@ void collider_free(struct collider *collider)
     free_bodies_free(&collider->free);
     end_guard_free(&collider->guard);
     sphere_parting_free(&collider->spheres);
+    aircraft_parting_free(&collider->aircraft);
     charges_free(&collider->charges);
     method_workspace_free(collider->workspace);
     pair_list_free(&collider->pairs);
@@ -312,6 +314,17 @@ static bool is_discrete(const struct world *world)
     return method_discrete((enum method)world->params->collision.method);
 }
 
+/* Solves the contacts of free bodies, and parts those in the air that begin in each other. */
+static void solve_free(struct collider *collider, struct response_context *context)
+{
+    struct free_bodies *bodies = &collider->free;
+    const struct contact_groups *groups = &bodies->groups;
+    free_bodies_solve(bodies, context);
+    bodies->moved_count =
+        aircraft_parting_run(&collider->aircraft, context, groups->begun, groups->begun_count,
+                             bodies->moved, bodies->moved_count);
+}
+
 static void collide_all(struct step *step, struct response_context *context)
 {
     struct collider *collider = step->collider;
@@ -325,7 +338,7 @@ static void collide_all(struct step *step, struct response_context *context)
     context->contacts_sleep = collider->slept = sleeping_contacts_all(context);
     if (rest) {
         resting_solve(&collider->resting, context);
-        free_bodies_solve(&collider->free, context);
+        solve_free(collider, context);
     } else if (spheres) {
         struct contact_groups *groups = &collider->resting.groups;
         contact_groups_find_begun(groups, context);

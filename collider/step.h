@@ -11,6 +11,8 @@
 #include "collider/broad_phase/broad_phase.h"
 #include "collider/narrow_phase/contact_queue.h"
 #include "collider/method/method.h"
+#include "collider/parting/aircraft_parting.h"
+#include "collider/parting/sphere_parting.h"
 #include "collider/response/contact_table.h"
 #include "collider/response/island.h"
 #include "collider/resting/end_guard.h"
@@ -18,7 +20,6 @@
 #include "collider/resting/resting.h"
 #include "collider/motion/body_motion.h"
 #include "collider/response/explosion.h"
-#include "collider/sphere_parting.h"
 #include "world/checksum.h"
 #include "world/runtime/thread_pool.h"
 #include "world/terrain/crater.h"
@@ -43,6 +44,7 @@ struct collider {
     struct free_bodies free;
     struct end_guard guard;
     struct sphere_parting spheres;
+    struct aircraft_parting aircraft;
     struct charges charges;
     struct method_workspace *workspace;
     struct pair_list pairs; /* what the method found */

@@ -166,7 +166,7 @@ static uint16_t flags_of(uint8_t marks)
 {
     return (uint16_t)((marks & CONTACT_OVERLAPS ? PERSISTENT_CONTACT_OVERLAPS : 0u) |
                       (marks & CONTACT_HOLDS ? PERSISTENT_CONTACT_HOLDS : 0u) |
-                      (marks & CONTACT_CAPSULES ? PERSISTENT_CONTACT_PARTS : 0u));
+                      (marks & CONTACT_PARTS ? PERSISTENT_CONTACT_PARTS : 0u));
 }
 
 /* Returns the contact of a pair that has touched, as if it began in this frame. */

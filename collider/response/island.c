@@ -115,7 +115,8 @@ static uint32_t local_of(const struct response_context *context, uint32_t *count
  * faces overstate it. Bodies on the ground and aircraft part by no more than this in an impact; the
  * rest is recovered while they are in contact, or the guard at the frame's end sends them back: two
  * jets that hooked into each other head-on were moved apart by 0.9 m in a frame [m]. Spheres on
- * the ground that are deep in each other part without impacts (collider/sphere_parting.h). */
+ * the ground that are deep in each other part without impacts (collider/parting/sphere_parting.h).
+ */
 #define SHIFT_M 6e-3
 
 static void shift(struct island_body *body, struct vec3 by, bool bit_by_bit)

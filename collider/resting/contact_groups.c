@@ -133,6 +133,13 @@ bool contact_groups_flies(const struct response_context *context, uint32_t row)
            context->world->kinds[e->row[row].kind].domain == DOMAIN_AIR;
 }
 
+bool contact_groups_in_air(const struct response_context *context, uint32_t row)
+{
+    return contact_groups_flies(context, row) ||
+           (context->next->entities.row[row].state == ENTITY_WRECK &&
+            !path_change_grounded(context, row));
+}
+
 bool contact_groups_is_piloted(const struct response_context *context, uint32_t row)
 {
     return context->next->entities.row[row].behaviour != BEHAVIOUR_HOLD &&
@@ -196,14 +203,14 @@ static bool still_there(struct contact_groups *groups, const struct response_con
                : is_held(groups, context, contact->b_row, contact->b_id);
 }
 
-/* Returns true if two aircraft only have to part (collider/resting/aircraft_parting.h). */
+/* Returns true if two bodies in the air only have to part (collider/parting/aircraft_parting.h). */
 static bool parts_in_air(const struct response_context *context,
                          const struct persistent_contact *contact)
 {
     return contact->flags & PERSISTENT_CONTACT_PARTS &&
            !(contact->b_id & PERSISTENT_CONTACT_FIXED) &&
-           contact_groups_flies(context, contact->a_row) &&
-           contact_groups_flies(context, contact->b_row);
+           contact_groups_in_air(context, contact->a_row) &&
+           contact_groups_in_air(context, contact->b_row);
 }
 
 /* Returns true if one of the bodies is free, and the other one can bear a load. */
@@ -557,7 +564,7 @@ void contact_groups_find_free(struct contact_groups *groups, struct response_con
     const struct state *committed = context->motion->committed;
     bool any = false;
     groups->count = groups->known = 0;
-    list_all_new(groups, context, contact_groups_flies);
+    list_all_new(groups, context, contact_groups_in_air);
     for (uint32_t i = 0; !context->contacts_sleep && i < committed->head->contact_count; i++) {
         const struct persistent_contact *contact = &committed->contacts[i];
         bool a = is_there(context, contact->a_row, contact->a_id);

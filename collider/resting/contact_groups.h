@@ -21,7 +21,7 @@ struct contact_groups {
     uint32_t *asked; /* rows of which something is */
     uint32_t asked_count;
     uint32_t *begun; /* [capacity of the world] bodies that are new in this frame and near others:
-                        those that the ground holds, or aircraft in the air */
+                        those that the ground holds, or those in the air */
     uint32_t begun_count;
 };
 
@@ -39,7 +39,7 @@ void contact_groups_find(struct contact_groups *groups, struct response_context 
 
 /* Finds the pairs of the groups that are awake of which one body is free, and the other is free, or
  * the ground holds it, or it is a wall. Wakes the wrecks that lean on something that is gone. Lists
- * the aircraft that are new in this frame. */
+ * the bodies in the air that are new in this frame. */
 void contact_groups_find_free(struct contact_groups *groups, struct response_context *context);
 
 /* Returns true for a piloted aircraft, for a wreck that does not lie on the ground or that tips
@@ -49,7 +49,10 @@ bool contact_groups_is_free(const struct response_context *context, uint32_t row
 /* Returns true for an aircraft that is no wreck and does not lie on the ground. */
 bool contact_groups_flies(const struct response_context *context, uint32_t row);
 
-/* Returns true for one that does not only hold its course either. */
+/* Returns true for such an aircraft, and for a wreck in the air. */
+bool contact_groups_in_air(const struct response_context *context, uint32_t row);
+
+/* Returns true for an aircraft that flies and does not only hold its course. */
 bool contact_groups_is_piloted(const struct response_context *context, uint32_t row);
 
 /* Adds a pair to those found. */

@@ -277,10 +277,11 @@ static bool deeper(const struct end_guard *guard, const struct response_context 
     double after = gap_after(guard, context, index);
     if (after >= -ROUNDING_M)
         return false;
-    if (known->way_m > 0.0)
+    bool is_held = held(context, pair);
+    if (known->way_m > 0.0 || (!is_held && context->contacts->marks[index] & CONTACT_PARTS))
         return true; /* see heed_ways() */
     double before = gap_before(context, index);
-    return (before > -RESTING_PARTS_M || held(context, pair)) && after < before - EXACT_M;
+    return (before > -RESTING_PARTS_M || is_held) && after < before - EXACT_M;
 }
 
 /* --- rows --------------------------------------------------------------------------------------*/

@@ -42,8 +42,7 @@
 #define ROLLING_GROUND 0.1
 #define ROLLING_BODY   0.05
 
-int free_bodies_init(struct free_bodies *bodies, const struct world *world,
-                     struct thread_pool *workers)
+int free_bodies_init(struct free_bodies *bodies, const struct world *world)
 {
     uint32_t rows = world->params->capacity;
     /* A wreck among bushes has more pairs than the table of contacts keeps. */
@@ -58,8 +57,7 @@ int free_bodies_init(struct free_bodies *bodies, const struct world *world,
     bodies->body_of = calloc(rows, sizeof *bodies->body_of);
     bodies->owned = calloc(rows, sizeof *bodies->owned);
     bodies->drift = calloc(rows, sizeof *bodies->drift);
-    if (contact_groups_init(&bodies->groups, world) == 0 &&
-        aircraft_parting_init(&bodies->air, world, workers) == 0 && bodies->body && bodies->side &&
+    if (contact_groups_init(&bodies->groups, world) == 0 && bodies->body && bodies->side &&
         bodies->contact && bodies->pair && bodies->moved && bodies->body_of && bodies->owned &&
         bodies->drift)
         return 0;
@@ -71,7 +69,6 @@ int free_bodies_init(struct free_bodies *bodies, const struct world *world,
 void free_bodies_free(struct free_bodies *bodies)
 {
     contact_groups_free(&bodies->groups);
-    aircraft_parting_free(&bodies->air);
     reserve_free(bodies->body);
     reserve_free(bodies->side);
     reserve_free(bodies->contact);
@@ -421,12 +418,8 @@ static void solve(struct free_bodies *bodies, struct response_context *context)
 
 void free_bodies_solve(struct free_bodies *bodies, struct response_context *context)
 {
-    const struct contact_groups *groups = &bodies->groups;
     forget(bodies);
     contact_groups_find_free(&bodies->groups, context);
-    aircraft_parting_find(&bodies->air, context, groups->begun, groups->begun_count);
-    if (groups->count > 0)
+    if (bodies->groups.count > 0)
         solve(bodies, context);
-    bodies->moved_count =
-        aircraft_parting_go(&bodies->air, context, bodies->moved, bodies->moved_count);
 }

@@ -8,7 +8,6 @@
 #ifndef JOLON_COLLIDER_RESTING_FREE_BODIES_H
 #define JOLON_COLLIDER_RESTING_FREE_BODIES_H
 
-#include "collider/resting/aircraft_parting.h"
 #include "collider/resting/contact_groups.h"
 #include "collider/resting/free_points.h"
 #include "collider/resting/free_solver.h"
@@ -44,7 +43,6 @@ struct free_pair {
 /* The collider's own memory, kept from frame to frame. */
 struct free_bodies {
     struct contact_groups groups;
-    struct aircraft_parting air;
     struct free_body *body; /* [count] the first is what does not move */
     struct free_side *side; /* [count] */
     uint32_t count;
@@ -55,20 +53,20 @@ struct free_bodies {
     uint32_t *body_of; /* [capacity of the world] body, or 0 */
     uint8_t *owned;    /* [capacity of the world] 1: this frame's contacts move the row freely */
     struct vec3
-        *drift;      /* [capacity of the world] the way that aircraft in contact go together [m] */
-    uint32_t *moved; /* rows whose motion the contacts determine, or that part; some twice */
+        *drift; /* [capacity of the world] the way that aircraft in contact go together [m] */
+    uint32_t
+        *moved; /* rows whose motion the contacts determine, or that part in the air; some twice */
     uint32_t moved_count;
 };
 
-/* Returns 0, or -1 with errno ENOMEM. workers may be NULL and stays the caller's. */
-int free_bodies_init(struct free_bodies *bodies, const struct world *world,
-                     struct thread_pool *workers);
+/* Returns 0, or -1 with errno ENOMEM. */
+int free_bodies_init(struct free_bodies *bodies, const struct world *world);
 void free_bodies_free(struct free_bodies *bodies);
 
 /* Solves the contacts of the committed table of which one body is free, and gives the bodies their
  * motion. Those of a pair that close as fast as in an impact are left to the search for impacts.
- * Aircraft that are deep in each other are displaced until they have parted. Marks pairs like
- * resting_solve(), which must have run. */
+ * Marks pairs like resting_solve(), which must have run. Lists the bodies in the air that are new
+ * in this frame in groups.begun. */
 void free_bodies_solve(struct free_bodies *bodies, struct response_context *context);
 
 /* Returns the body that stands for all that touch a body, directly or not. */

@@ -1,9 +1,10 @@
 /* Bodies on the ground that collide as spheres and are deep in each other. They only have to part:
  * they have no impacts on each other and are displaced on the map, without a velocity. Bodies that
  * touch them make room. Pure; one caller. */
-#ifndef JOLON_COLLIDER_SPHERE_PARTING_H
-#define JOLON_COLLIDER_SPHERE_PARTING_H
+#ifndef JOLON_COLLIDER_PARTING_SPHERE_PARTING_H
+#define JOLON_COLLIDER_PARTING_SPHERE_PARTING_H
 
+#include "collider/parting/parting_rows.h"
 #include "collider/response/response_context.h"
 
 #include <stdbool.h>
@@ -27,13 +28,10 @@ struct sphere_pair {
 
 /* The collider's own memory. */
 struct sphere_parting {
-    uint32_t *row;          /* [rows] first those that part or make room */
-    uint32_t members, rows; /* how many these are, and with those that stand in their way */
-    uint32_t *body_of;      /* [capacity of the world] index + 1 into row and body, else 0 */
-    struct sphere_body *body;
-    struct pair_list list;    /* of rows */
-    struct sphere_pair *pair; /* [list.count] */
-    uint64_t pair_capacity;
+    struct parting_rows rows; /* first those that part or make room */
+    uint32_t members;         /* how many these are; the others stand in their way */
+    struct sphere_body *body; /* [rows.count] */
+    struct sphere_pair *pair; /* [rows.list.count] */
 };
 
 /* Returns 0, or -1 with errno ENOMEM. */

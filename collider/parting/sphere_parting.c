@@ -1,6 +1,6 @@
 /* A list of the rows that are deep in each other, with those that touch them, and sweeps over their
  * pairs that push each as far apart as it may come in a frame. */
-#include "collider/sphere_parting.h"
+#include "collider/parting/sphere_parting.h"
 
 #include "collider/narrow_phase/contact_pairs.h"
 #include "collider/narrow_phase/cruise_rows.h"
@@ -10,13 +10,11 @@
 #include "collider/resting/resting.h"
 #include "world/entity/persistent_contact.h"
 #include "world/entity/remote.h"
-#include "world/maths/sort.h"
 #include "world/params.h"
 #include "world/runtime/reserve.h"
 #include "world/world.h"
 
 #include <errno.h>
-#include <stdlib.h>
 
 /* A pair parts at this speed at most, and a body goes no faster than MOST_MPS. */
 #define PAIR_MPS 10.0
@@ -38,14 +36,12 @@
 
 int sphere_parting_init(struct sphere_parting *parting, const struct world *world)
 {
-    uint32_t rows = world->params->capacity;
-    *parting = (struct sphere_parting){.pair_capacity = pair_filter_pairs_first(world)};
-    parting->row = reserve_take(rows, sizeof *parting->row);
-    parting->body = reserve_take(rows, sizeof *parting->body);
-    parting->pair = reserve_take(parting->pair_capacity, sizeof *parting->pair);
-    parting->body_of = calloc(rows, sizeof *parting->body_of);
-    if (pair_list_init(&parting->list, parting->pair_capacity) == 0 && parting->row &&
-        parting->body && parting->pair && parting->body_of)
+    *parting = (struct sphere_parting){.members = 0};
+    if (parting_rows_init(&parting->rows, world) == 0) {
+        parting->body = reserve_take(world->params->capacity, sizeof *parting->body);
+        parting->pair = reserve_take(parting->rows.pair_capacity, sizeof *parting->pair);
+    }
+    if (parting->body && parting->pair)
         return 0;
     sphere_parting_free(parting);
     errno = ENOMEM;
@@ -54,12 +50,10 @@ int sphere_parting_init(struct sphere_parting *parting, const struct world *worl
 
 void sphere_parting_free(struct sphere_parting *parting)
 {
-    pair_list_free(&parting->list);
-    reserve_free(parting->row);
+    parting_rows_free(&parting->rows);
     reserve_free(parting->body);
     reserve_free(parting->pair);
-    free(parting->body_of);
-    *parting = (struct sphere_parting){.rows = 0};
+    *parting = (struct sphere_parting){.members = 0};
 }
 
 /* --- rows --------------------------------------------------------------------------------------*/
@@ -99,14 +93,6 @@ static bool is_deep(const struct response_context *context, const struct pair *p
     return reach_of(context, pair) - begins_apart(context, pair) > ROUNDING_M;
 }
 
-static void add_row(struct sphere_parting *parting, uint32_t row)
-{
-    if (parting->body_of[row] != 0)
-        return;
-    parting->row[parting->rows++] = row;
-    parting->body_of[row] = parting->rows;
-}
-
 static void add_deep(struct sphere_parting *parting, struct response_context *context,
                      const struct pair *pair)
 {
@@ -116,8 +102,8 @@ static void add_deep(struct sphere_parting *parting, struct response_context *co
     body_motion_require(context->motion, pair->b);
     if (!is_deep(context, pair))
         return;
-    add_row(parting, pair->a);
-    add_row(parting, pair->b);
+    parting_rows_add(&parting->rows, pair->a);
+    parting_rows_add(&parting->rows, pair->b);
 }
 
 /* Lists the bodies of the pairs that were not apart a frame ago. */
@@ -154,7 +140,7 @@ static void add_near(struct sphere_parting *parting, struct response_context *co
         body_motion_require(context->motion, other);
         if ((!touching ||
              begins_apart(context, &pair) < reach_of(context, &pair) + CONTACT_TOUCHING_M))
-            add_row(parting, other);
+            parting_rows_add(&parting->rows, other);
     }
 }
 
@@ -175,27 +161,20 @@ static void add_rows(struct sphere_parting *parting, struct response_context *co
         const struct pair pair = contacts->pair[i];
         add_deep(parting, context, &pair);
     }
-    for (uint32_t i = 0; i < parting->rows; i++) {
-        contact_queue_look_wider(context->contacts, &context->input, parting->row[i], most_m);
-        add_near(parting, context, parting->row[i], true);
+    for (uint32_t i = 0; i < parting->rows.count; i++) {
+        contact_queue_look_wider(context->contacts, &context->input, parting->rows.row[i], most_m);
+        add_near(parting, context, parting->rows.row[i], true);
     }
-    parting->members = parting->rows;
+    parting->members = parting->rows.count;
     for (uint32_t i = 0; i < parting->members; i++)
-        add_near(parting, context, parting->row[i], false);
-}
-
-static void forget_rows(struct sphere_parting *parting)
-{
-    for (uint32_t i = 0; i < parting->rows; i++)
-        parting->body_of[parting->row[i]] = 0;
-    parting->rows = parting->list.count = 0;
+        add_near(parting, context, parting->rows.row[i], false);
 }
 
 static void place_bodies(struct sphere_parting *parting, const struct response_context *context)
 {
     const struct entities *e = &context->next->entities;
-    for (uint32_t i = 0; i < parting->rows; i++) {
-        uint32_t row = parting->row[i];
+    for (uint32_t i = 0; i < parting->rows.count; i++) {
+        uint32_t row = parting->rows.row[i];
         parting->body[i] = (struct sphere_body){
             .from = entities_position(body_motion_before(context->motion, row), row),
             .to = entities_position(e, row),
@@ -210,20 +189,15 @@ static void place_bodies(struct sphere_parting *parting, const struct response_c
 static void list_pairs(struct sphere_parting *parting, const struct response_context *context)
 {
     const struct contact_queue *contacts = context->contacts;
-    for (uint32_t i = 0; i < parting->rows; i++) {
-        uint32_t row = parting->row[i];
+    for (uint32_t i = 0; i < parting->rows.count; i++) {
+        uint32_t row = parting->rows.row[i];
         for (uint32_t link = contacts->head[row]; link != 0; link = contacts->link[link - 1].next) {
             const struct pair *pair = &contacts->pair[contacts->link[link - 1].pair];
-            if (pair->a == row && !(pair->b & PAIR_FIXED) && parting->body_of[pair->b] != 0)
-                pair_list_add(&parting->list, pair->a, pair->b);
+            if (pair->a == row && !(pair->b & PAIR_FIXED) && parting->rows.place[pair->b] != 0)
+                pair_list_add(&parting->rows.list, pair->a, pair->b);
         }
     }
-    sort_words(parting->list.pair, parting->list.count);
-    if (parting->list.count > parting->pair_capacity) {
-        parting->pair_capacity = 2 * (uint64_t)parting->list.count;
-        parting->pair =
-            reserve_grow(parting->pair, 0, parting->pair_capacity, sizeof *parting->pair);
-    }
+    parting->pair = parting_rows_sort(&parting->rows, parting->pair, sizeof *parting->pair);
 }
 
 /* Marks a pair, and tells its beginning. */
@@ -250,13 +224,13 @@ static void mark(struct response_context *context, const struct pair *pair, bool
 static void find_pairs(struct sphere_parting *parting, struct response_context *context)
 {
     double most_m = PAIR_MPS * world_dt_s(context->world);
-    for (uint32_t i = 0; i < parting->list.count; i++) {
-        const struct pair *pair = &parting->list.pair[i];
+    for (uint32_t i = 0; i < parting->rows.list.count; i++) {
+        const struct pair *pair = &parting->rows.list.pair[i];
         double reach = reach_of(context, pair), apart = begins_apart(context, pair);
         bool deep = is_deep(context, pair);
         struct sphere_pair *one = &parting->pair[i];
-        *one = (struct sphere_pair){.a = parting->body_of[pair->a] - 1,
-                                    .b = parting->body_of[pair->b] - 1,
+        *one = (struct sphere_pair){.a = parting->rows.place[pair->a] - 1,
+                                    .b = parting->rows.place[pair->b] - 1,
                                     .least_m = maths_min(reach, apart)};
         one->wish_m = deep ? maths_min(reach + APART_M, apart + most_m) : one->least_m;
         if (one->a < parting->members || one->b < parting->members)
@@ -280,7 +254,8 @@ static double push(const struct sphere_parting *parting, const struct sphere_pai
         return 0.0;
     double way = least - far;
     if (far < SAME_PLACE_M) {
-        double turn = GOLDEN_RAD * (double)(parting->row[pair->a] + parting->row[pair->b]);
+        double turn =
+            GOLDEN_RAD * (double)(parting->rows.row[pair->a] + parting->rows.row[pair->b]);
         maths_sincos(maths_wrap_turn(turn), &between.x, &between.z);
         far = 1.0;
     }
@@ -293,7 +268,7 @@ static double push(const struct sphere_parting *parting, const struct sphere_pai
 /* One sweep over the pairs. Returns the longest push [m]. */
 static double sweep(const struct sphere_parting *parting, uint32_t n, bool wishes)
 {
-    uint32_t count = parting->list.count;
+    uint32_t count = parting->rows.list.count;
     double most_m = 0.0;
     for (uint32_t i = 0; i < count; i++) {
         const struct sphere_pair *pair = &parting->pair[n % 2 == 0 ? i : count - 1 - i];
@@ -308,13 +283,13 @@ static void shorten(const struct sphere_parting *parting, const struct response_
 {
     const struct entities *e = &context->next->entities;
     double far = most_m;
-    for (uint32_t i = 0; i < parting->rows; i++) {
-        struct vec3 at = entities_position(e, parting->row[i]);
+    for (uint32_t i = 0; i < parting->rows.count; i++) {
+        struct vec3 at = entities_position(e, parting->rows.row[i]);
         far = maths_max(far, vec3_length(vec3_sub(parting->body[i].to, at)));
     }
-    for (uint32_t i = 0; i < parting->rows; i++) {
+    for (uint32_t i = 0; i < parting->rows.count; i++) {
         struct sphere_body *body = &parting->body[i];
-        struct vec3 at = entities_position(e, parting->row[i]);
+        struct vec3 at = entities_position(e, parting->rows.row[i]);
         body->to = vec3_lerp(at, body->to, most_m / far);
     }
 }
@@ -328,13 +303,13 @@ static struct vec3 end_of(const struct sphere_body *body)
 static bool hold_back(const struct sphere_parting *parting, double keep)
 {
     bool any = false;
-    for (uint32_t i = 0; i < parting->list.count; i++) {
+    for (uint32_t i = 0; i < parting->rows.list.count; i++) {
         const struct sphere_pair *pair = &parting->pair[i];
         struct sphere_body *a = &parting->body[pair->a], *b = &parting->body[pair->b];
         if (vec3_length(vec3_sub(end_of(b), end_of(a))) < pair->least_m - ROUNDING_M)
             a->jams = b->jams = true;
     }
-    for (uint32_t i = 0; i < parting->rows; i++) {
+    for (uint32_t i = 0; i < parting->rows.count; i++) {
         struct sphere_body *body = &parting->body[i];
         any |= body->jams && body->share > 0.0;
         body->share *= body->jams ? keep : 1.0;
@@ -350,7 +325,7 @@ static void set_down(const struct sphere_parting *parting, const struct response
     const struct terrain *terrain = &context->world->terrain;
     const struct crater_index *craters = context->input.detect.craters;
     for (uint32_t i = 0; i < parting->members; i++) {
-        const struct vec3 at = entities_position(e, parting->row[i]);
+        const struct vec3 at = entities_position(e, parting->rows.row[i]);
         struct vec3 *to = &parting->body[i].to;
         to->y = at.y + terrain_height(terrain, craters, to->x, to->z) -
                 terrain_height(terrain, craters, at.x, at.z);
@@ -397,17 +372,17 @@ uint32_t sphere_parting_run(struct sphere_parting *parting, struct response_cont
                             const uint32_t *fresh, uint32_t count, uint32_t *moved)
 {
     uint32_t went = 0;
-    forget_rows(parting);
+    parting_rows_forget(&parting->rows);
     add_rows(parting, context, fresh, count);
-    if (parting->rows == 0)
+    if (parting->rows.count == 0)
         return 0;
     place_bodies(parting, context);
     list_pairs(parting, context);
     find_pairs(parting, context);
     find_ways(parting, context);
     for (uint32_t i = 0; i < parting->members; i++) {
-        if (go(context, parting->row[i], &parting->body[i]))
-            moved[went++] = parting->row[i];
+        if (go(context, parting->rows.row[i], &parting->body[i]))
+            moved[went++] = parting->rows.row[i];
     }
     return went;
 }

@@ -1,0 +1,67 @@
+/* Aircraft that begin in each other, and wrecks in the air with them. They only have to part: like
+ * bodies on the ground (collider/resting/parting.h) they have no impacts on each other and are
+ * displaced, without a velocity. They do so horizontally, and no displacement brings one into
+ * another that it is not in. Pure; one caller, and its workers. */
+#ifndef JOLON_COLLIDER_PARTING_AIRCRAFT_PARTING_H
+#define JOLON_COLLIDER_PARTING_AIRCRAFT_PARTING_H
+
+#include "collider/geometry/level_exit.h"
+#include "collider/geometry/level_gap.h"
+#include "collider/parting/parting_rows.h"
+#include "collider/response/response_context.h"
+#include "collider/resting/resting.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/* A pair of two that may be in each other, or in each other's way. */
+struct aircraft_pair {
+    bool overlaps;
+    uint32_t count;                         /* of near hulls */
+    struct level_gap gap[RESTING_GAPS_MAX]; /* smallest first; of two that part only one */
+};
+
+/* An aircraft as it stands when the frame begins, and then when it ends. */
+struct aircraft_body {
+    struct swept_body body;
+    struct mat3 turn;
+    uint32_t in;               /* so many others it is in when the frame begins */
+    uint32_t level;            /* index + 1 into level and level_row, else 0 */
+    uint32_t parent;           /* union-find of those that are in each other */
+    double kg;                 /* of a root: of all of them */
+    struct vec3 way, momentum; /* [kg m], [N s] the same */
+};
+
+/* The collider's own memory. */
+struct aircraft_parting {
+    struct thread_pool *workers;
+    struct parting_rows rows;   /* first those that are new, then those that part from them */
+    uint32_t fresh;             /* so many are new */
+    struct aircraft_body *body; /* [rows.count] */
+    struct aircraft_pair *pair; /* [rows.list.count] */
+    struct pair_list deep;      /* those that begin the frame in each other */
+    struct level_exit exit;
+    struct crowds crowds;
+    struct parting steps; /* and what it is given */
+    struct level_body *level;
+    uint32_t *level_row;
+    struct resting_pair *parted;
+    struct level_contact *point;
+    uint32_t levels, parteds, points;
+    uint64_t parted_capacity, point_capacity;
+};
+
+/* Returns 0, or -1 with errno ENOMEM. workers may be NULL and stays the caller's. */
+int aircraft_parting_init(struct aircraft_parting *parting, const struct world *world,
+                          struct thread_pool *workers);
+void aircraft_parting_free(struct aircraft_parting *parting);
+
+/* Finds the aircraft that are deep in each other: those that are new in this frame, and those that
+ * have not parted yet. Marks their pairs as CONTACT_PARTS, and displaces them with all that make
+ * room. Adds the rows that it moves to moved, and returns how many it holds then. fresh: [count]
+ * the new ones. All bodies must have their motion, and nothing must have been swept. */
+uint32_t aircraft_parting_run(struct aircraft_parting *parting, struct response_context *context,
+                              const uint32_t *fresh, uint32_t fresh_count, uint32_t *moved,
+                              uint32_t count);
+
+#endif
