@@ -17,7 +17,6 @@
 #include "world/world.h"
 
 #include <errno.h>
-#include <string.h>
 
 /* Nobody goes faster than this (collider/resting/parting_wishes.c). */
 #define MOST_MPS 20.0
