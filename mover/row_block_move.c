@@ -283,8 +283,8 @@ static void move_as_desired(const struct step_context *context, uint32_t i,
 static bool is_sprung(const struct step_context *context, uint32_t i)
 {
     const struct entities *m = context->m;
-    bool spins = m->row[i].spin_x != 0.0 || m->row[i].spin_y != 0.0 || m->row[i].spin_z != 0.0;
-    return (spins || m->row[i].flags & ENTITY_FLAG_CHASSIS) && chassis_takes(context, i, false);
+    return (entities_spins(m, i) || m->row[i].flags & ENTITY_FLAG_CHASSIS) &&
+           chassis_takes(context, i, false);
 }
 
 /* Moves a land vehicle by a stretch of so many frames with those that wait for the same. */

@@ -329,24 +329,16 @@ bool avoidance_goes_around(const struct step_context *context, uint32_t i,
 /* Limits the directions by craters. */
 static void see_craters(const struct step_context *context, uint32_t i, struct look *look)
 {
-    const struct entities *m = context->m;
-    const struct crater_index *craters = context->craters;
+    const struct entity *m = &context->m->row[i];
     const double most = look->horizon_m;
-    if (craters->count == 0 || look->kind->domain != DOMAIN_LAND)
+    const struct crater *crater;
+    if (look->kind->domain != DOMAIN_LAND)
         return;
-    const struct gridsquare_box box =
-        gridsquare_box_of(&craters->squares, m->row[i].x - most, m->row[i].z - most,
-                          m->row[i].x + most, m->row[i].z + most);
-    for (int32_t row = box.z0; row <= box.z1; row++) {
-        for (int32_t column = box.x0; column <= box.x1; column++) {
-            uint32_t link = craters->head[gridsquare_index(&craters->squares, column, row)];
-            for (; link != 0; link = craters->links[link - 1].next) {
-                const struct crater *crater = &craters->craters[craters->links[link - 1].crater];
-                const double dx = crater->x - m->row[i].x, dz = crater->z - m->row[i].z;
-                if (dx * dx + dz * dz < most * most && avoidance_goes_around(context, i, crater))
-                    limit_by_standing(look, dx, dz, BOWL_SHARE * (double)crater->radius_m);
-            }
-        }
+    struct crater_walk walk = crater_walk_begin(context->craters, m->x, m->z, most);
+    while ((crater = crater_walk_next(&walk)) != NULL) {
+        const double dx = crater->x - m->x, dz = crater->z - m->z;
+        if (dx * dx + dz * dz < most * most && avoidance_goes_around(context, i, crater))
+            limit_by_standing(look, dx, dz, BOWL_SHARE * (double)crater->radius_m);
     }
 }
 

@@ -159,24 +159,13 @@ static void add_vehicles(const struct step_context *context, uint32_t i, double 
 static void add_craters(const struct step_context *context, uint32_t i, double reach_m,
                         struct shunting_room *room)
 {
-    const struct entities *m = context->m;
-    const struct crater_index *craters = context->craters;
-    if (craters->count == 0)
-        return;
-    const struct gridsquare_box box =
-        gridsquare_box_of(&craters->squares, m->row[i].x - reach_m, m->row[i].z - reach_m,
-                          m->row[i].x + reach_m, m->row[i].z + reach_m);
-    for (int32_t row = box.z0; row <= box.z1; row++) {
-        for (int32_t column = box.x0; column <= box.x1; column++) {
-            uint32_t link = craters->head[gridsquare_index(&craters->squares, column, row)];
-            for (; link != 0; link = craters->links[link - 1].next) {
-                const struct crater *crater = &craters->craters[craters->links[link - 1].crater];
-                const double dx = crater->x - m->row[i].x, dz = crater->z - m->row[i].z;
-                if (dx * dx + dz * dz < reach_m * reach_m &&
-                    avoidance_goes_around(context, i, crater))
-                    add_disc(room, crater->x, crater->z, (double)crater->radius_m);
-            }
-        }
+    const struct entity *m = &context->m->row[i];
+    struct crater_walk walk = crater_walk_begin(context->craters, m->x, m->z, reach_m);
+    const struct crater *crater;
+    while ((crater = crater_walk_next(&walk)) != NULL) {
+        const double dx = crater->x - m->x, dz = crater->z - m->z;
+        if (dx * dx + dz * dz < reach_m * reach_m && avoidance_goes_around(context, i, crater))
+            add_disc(room, crater->x, crater->z, (double)crater->radius_m);
     }
 }
 

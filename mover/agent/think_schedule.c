@@ -78,11 +78,6 @@ static bool spins_first(const struct step_context *context, enum motion how, uin
            (how > MOTION_HOLD && how != MOTION_REMOTE && domain != DOMAIN_LAND && !body);
 }
 
-static bool spins(const struct entities *m, uint32_t i)
-{
-    return m->row[i].spin_x != 0.0 || m->row[i].spin_y != 0.0 || m->row[i].spin_z != 0.0;
-}
-
 /* Returns false if perception_event() finds none. */
 static bool has_event(const struct entities *m, uint32_t i)
 {
@@ -119,7 +114,7 @@ static void sort(const struct step_context *context, const struct row_block *blo
         ahead = prefetch_next(context, block, ahead);
         enum motion how = is_new(context, i) ? MOTION_NONE : motion_of(context, i);
         m->row[i].trigger = 0;
-        if (spins(m, i) && spins_first(context, how, i))
+        if (entities_spins(m, i) && spins_first(context, how, i))
             spin_row(context, i);
         if (how == MOTION_HOLD) { /* it reacts to nothing */
             m->row[i].bumped = 0;

@@ -94,7 +94,7 @@ static double calm_s(const struct step_context *context, uint32_t i)
 bool chassis_takes(const struct step_context *context, uint32_t i, bool driven)
 {
     const struct entities *m = context->m;
-    bool spins = m->row[i].spin_x != 0.0 || m->row[i].spin_y != 0.0 || m->row[i].spin_z != 0.0;
+    bool spins = entities_spins(m, i);
     if (!(m->row[i].flags & ENTITY_FLAG_CHASSIS)) {
         if (!driven && !spins)
             return false;

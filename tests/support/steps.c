@@ -292,6 +292,23 @@ void steps_respond(struct fixture *fixture, struct response_context *context)
     contact_queue_begin(&collider->contacts, collider->broad.list, THREAD_POOL_MAX);
 }
 
+void steps_methods_agree(struct fixture *fixture, void (*begin)(const char *method))
+{
+    static const char *const methods[] = {"swept", "brute", "hopcroft", "occupancy", "swept"};
+    uint64_t hash = 0;
+    for (uint32_t i = 0; i < 5; i++) {
+        begin(methods[i]);
+        fixture_threads(fixture, i == 4 ? 3 : 1);
+        fixture_continue(fixture, 60);
+        const struct state now = fixture_state(fixture);
+        uint64_t own = steps_state_hash(fixture, &now);
+        if (i > 0)
+            assert_int_equal(own, hash);
+        hash = own;
+        fixture_close(fixture);
+    }
+}
+
 void steps_replace(struct fixture *fixture, struct response_context *context, uint32_t row,
                    uint32_t id)
 {

@@ -96,6 +96,10 @@ void steps_serial_context(struct fixture *fixture, struct step_context *step,
  * one, all rows are at rest and there are no contacts. Free with steps_respond_end(). */
 void steps_respond(struct fixture *fixture, struct response_context *context);
 
+/* Fails unless a world ends 60 frames with the same bytes by all methods that sweep, on one thread
+ * and on three. begin: opens the world in the fixture by a method. */
+void steps_methods_agree(struct fixture *fixture, void (*begin)(const char *method));
+
 /* Makes what a row of this frame holds another body than that of the committed frame. */
 void steps_replace(struct fixture *fixture, struct response_context *context, uint32_t row,
                    uint32_t id);

@@ -242,11 +242,17 @@ static inline struct vec3 entities_velocity(const struct entities *e, uint32_t i
     return (struct vec3){e->row[i].vx, e->row[i].vy, e->row[i].vz};
 }
 
+/* Returns true if row i turns by its own spin. */
+static inline bool entities_spins(const struct entities *e, uint32_t i)
+{
+    return e->row[i].spin_x != 0.0 || e->row[i].spin_y != 0.0 || e->row[i].spin_z != 0.0;
+}
+
 /* Returns true if row i neither moves nor turns. */
 static inline bool entities_still(const struct entities *e, uint32_t i)
 {
     return e->row[i].vx == 0.0 && e->row[i].vy == 0.0 && e->row[i].vz == 0.0 &&
-           e->row[i].spin_x == 0.0 && e->row[i].spin_y == 0.0 && e->row[i].spin_z == 0.0;
+           !entities_spins(e, i);
 }
 
 static inline void entities_set_position(const struct entities *e, uint32_t i, struct vec3 p)

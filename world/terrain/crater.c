@@ -97,22 +97,44 @@ double crater_offset(const struct crater_index *index, double x, double z)
     return deepest < 0.0 ? deepest : highest;
 }
 
+struct crater_walk crater_walk_begin(const struct crater_index *index, double x, double z,
+                                     double reach_m)
+{
+    struct crater_walk walk = {.index = index, .box = {.z1 = -1}};
+    if (index->count == 0)
+        return walk;
+    walk.box =
+        gridsquare_box_of(&index->squares, x - reach_m, z - reach_m, x + reach_m, z + reach_m);
+    walk.column = walk.box.x0;
+    walk.row = walk.box.z0;
+    return walk;
+}
+
+const struct crater *crater_walk_next(struct crater_walk *walk)
+{
+    const struct crater_index *index = walk->index;
+    while (walk->link == 0 && walk->row <= walk->box.z1) {
+        walk->link = index->head[gridsquare_index(&index->squares, walk->column, walk->row)];
+        if (++walk->column > walk->box.x1) {
+            walk->column = walk->box.x0;
+            walk->row++;
+        }
+    }
+    if (walk->link == 0)
+        return NULL;
+    const struct crater_link *entry = &index->links[walk->link - 1];
+    walk->link = entry->next;
+    return &index->craters[entry->crater];
+}
+
 bool crater_index_near(const struct crater_index *index, double x, double z, double reach_m)
 {
-    if (index->count == 0)
-        return false;
-    const struct gridsquare_box box =
-        gridsquare_box_of(&index->squares, x - reach_m, z - reach_m, x + reach_m, z + reach_m);
-    for (int32_t row = box.z0; row <= box.z1; row++) {
-        for (int32_t column = box.x0; column <= box.x1; column++) {
-            uint32_t link = index->head[gridsquare_index(&index->squares, column, row)];
-            for (; link != 0; link = index->links[link - 1].next) {
-                const struct crater *crater = &index->craters[index->links[link - 1].crater];
-                double own = (double)crater->radius_m * CRATER_RIM + reach_m;
-                if (fabs(crater->x - x) < own && fabs(crater->z - z) < own)
-                    return true;
-            }
-        }
+    struct crater_walk walk = crater_walk_begin(index, x, z, reach_m);
+    const struct crater *crater;
+    while ((crater = crater_walk_next(&walk)) != NULL) {
+        double own = (double)crater->radius_m * CRATER_RIM + reach_m;
+        if (fabs(crater->x - x) < own && fabs(crater->z - z) < own)
+            return true;
     }
     return false;
 }

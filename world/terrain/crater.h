@@ -60,6 +60,21 @@ void crater_index_update(struct crater_index *index, uint32_t count);
  * else 0. Does not depend on the order of the craters. */
 double crater_offset(const struct crater_index *index, double x, double z);
 
+/* The craters of the gridsquares within a distance of a point. Those that reach into several of
+ * these squares come as often. */
+struct crater_walk {
+    const struct crater_index *index;
+    struct gridsquare_box box;
+    int32_t column, row; /* the next square */
+    uint32_t link;       /* + 1 of the next crater of the square before; 0: none */
+};
+
+struct crater_walk crater_walk_begin(const struct crater_index *index, double x, double z,
+                                     double reach_m);
+
+/* Returns the next crater, or NULL after the last one. */
+const struct crater *crater_walk_next(struct crater_walk *walk);
+
 /* Returns true if a crater or its rim may reach within a distance of (x, z) [m]. */
 bool crater_index_near(const struct crater_index *index, double x, double z, double reach_m);
 

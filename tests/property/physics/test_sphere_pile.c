@@ -88,24 +88,17 @@ static void test_row_46_spheres_that_drive_part(void **state)
     }
 }
 
+static void begin_by(const char *method)
+{
+    uint64_t random = 7;
+    begin(&random, 60.0, method, 5.0, STEEP);
+}
+
 /* The parting depends on neither the order of the pairs nor the number of threads. */
 static void test_all_methods_and_threads_give_the_same(void **state)
 {
-    static const char *const methods[] = {"swept", "brute", "hopcroft", "occupancy", "swept"};
-    uint64_t hash = 0;
     (void)state;
-    for (uint32_t i = 0; i < 5; i++) {
-        uint64_t random = 7;
-        begin(&random, 60.0, methods[i], 5.0, STEEP);
-        fixture_threads(&f, i == 4 ? 3 : 1);
-        fixture_continue(&f, 60);
-        const struct state now = fixture_state(&f);
-        uint64_t own = steps_state_hash(&f, &now);
-        if (i > 0)
-            assert_int_equal(own, hash);
-        hash = own;
-        fixture_close(&f);
-    }
+    steps_methods_agree(&f, begin_by);
 }
 
 int main(void)

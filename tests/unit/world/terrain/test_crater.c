@@ -143,6 +143,32 @@ static void test_craters_in_reach_are_near(void **state)
     crater_index_free(&index);
 }
 
+static void test_a_walk_passes_all_craters_near(void **state)
+{
+    struct crater craters[MANY];
+    struct crater_index index;
+    uint64_t random = fixture_seed(5);
+    (void)state;
+    for (int i = 0; i < MANY; i++)
+        craters[i] = random_crater(&random);
+    index_of(&index, craters, MANY);
+    for (int n = 0; n < 500; n++) {
+        bool passed[MANY] = {false};
+        double x = fixture_uniform(&random, 24850.0, 25150.0);
+        double z = fixture_uniform(&random, 24850.0, 25150.0), reach = n % 7 * 20.0;
+        struct crater_walk walk = crater_walk_begin(&index, x, z, reach);
+        const struct crater *crater;
+        while ((crater = crater_walk_next(&walk)) != NULL)
+            passed[crater - craters] = true;
+        for (int i = 0; i < MANY; i++)
+            assert_true(passed[i] || hypot(craters[i].x - x, craters[i].z - z) > reach);
+    }
+    crater_index_update(&index, 0);
+    struct crater_walk walk = crater_walk_begin(&index, 25000.0, 25000.0, 100.0);
+    assert_null(crater_walk_next(&walk));
+    crater_index_free(&index);
+}
+
 static void test_order_does_not_matter(void **state)
 {
     struct crater craters[MANY], shuffled[MANY];
@@ -306,6 +332,7 @@ int main(void)
         cmocka_unit_test(test_overlap_is_the_deepest_bowl_else_the_highest_rim),
         cmocka_unit_test(test_the_index_gives_the_same_as_the_whole_list),
         cmocka_unit_test(test_craters_in_reach_are_near),
+        cmocka_unit_test(test_a_walk_passes_all_craters_near),
         cmocka_unit_test(test_order_does_not_matter),
         cmocka_unit_test(test_craters_on_borders_are_found_from_every_side),
         cmocka_unit_test(test_index_grows_with_the_list_and_goes_back_with_it),
