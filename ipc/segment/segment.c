@@ -11,6 +11,7 @@
 #include "world/making/scenario_settings.h"
 #include "world/making/world_build.h"
 #include "world/provenance.h"
+#include "world/runtime/large_pages.h"
 #include "world/runtime/prefault.h"
 #include "world/terrain/gridsquare.h"
 
@@ -213,14 +214,17 @@ int segment_private(struct view *view, const struct segment_header *header,
     *view = (struct view){.role = ROLE_NONE, .lock_fd = -1, .object_fd = -1};
     if (layout_compute(&view->layout, header) != 0)
         return error_text_set(error, "the world's counts are out of range");
-    view->base =
-        mmap(NULL, view->layout.total, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    view->base = large_pages_map(view->layout.total, PROT_READ | PROT_WRITE, -1);
     if (view->base == MAP_FAILED) {
         view->base = NULL;
         return error_text_set(error, "out of memory: %zu bytes", view->layout.total);
     }
-    prefault_large(view->base, view->layout.total);
     return prepare(view, header) == 0 ? 0 : error_text_set(error, "doorbells: %s", strerror(errno));
+}
+
+void segment_prefault(const struct view *view)
+{
+    prefault_readable(view->base, view->layout.offset[REGION_COMMIT]);
 }
 
 /* The object has no name until it is whole: when the process dies, the kernel frees it. */
@@ -237,8 +241,7 @@ int segment_begin(struct view *view, const char *name, const struct segment_head
         return error_text_set(error, SEGMENT_DIR ": cannot create: %s", strerror(errno));
     if (reserve(view->object_fd, view->layout.total, error) != 0)
         goto err_made;
-    view->base =
-        mmap(NULL, view->layout.total, PROT_READ | PROT_WRITE, MAP_SHARED, view->object_fd, 0);
+    view->base = large_pages_map(view->layout.total, PROT_READ | PROT_WRITE, view->object_fd);
     if (view->base == MAP_FAILED) {
         view->base = NULL;
         error_text_set(error, "cannot map the world's %.1f MB: %s; lower world.capacity",

@@ -101,6 +101,9 @@ struct segment_header segment_header_for(const struct params *params, const stru
  * which file is missing, and what makes it. */
 int segment_map_posts(struct view *view, struct error_text *error);
 
+/* Takes the pages of what never changes in a world, so that no step waits for them. */
+void segment_prefault(const struct view *view);
+
 /* Copies a built world and its parameters into a begun or private segment, as frame 0. */
 void segment_fill(struct view *view, const struct world_build *built);
 

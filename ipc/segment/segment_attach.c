@@ -6,7 +6,7 @@
 #include "ipc/process/process.h"
 #include "ipc/segment/segment_internal.h"
 #include "ipc/segment/segment_locks.h"
-#include "world/runtime/prefault.h"
+#include "world/runtime/large_pages.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -79,7 +79,7 @@ static void *map_readable(int fd, size_t bytes)
     int readable = open(path, O_RDONLY | O_CLOEXEC);
     if (readable < 0)
         return MAP_FAILED;
-    void *base = mmap(NULL, bytes, PROT_READ, MAP_SHARED, readable, 0);
+    void *base = large_pages_map(bytes, PROT_READ, readable);
     close(readable);
     return base;
 }
@@ -134,7 +134,6 @@ int segment_map(struct view *view, segment_writable *writable, struct error_text
         goto err_map;
     }
     view->header = view->base;
-    prefault_large(view->base, bytes);
     segment_bind(view);
     if (segment_map_posts(view, error) != 0)
         goto err_map;

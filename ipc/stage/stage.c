@@ -5,6 +5,7 @@
 #include "ipc/process/log.h"
 #include "ipc/process/option_table.h"
 #include "ipc/process/process.h"
+#include "ipc/segment/segment.h"
 #include "ipc/segment/segment_attach.h"
 #include "world/entity/table_touch.h"
 #include "world/params.h"
@@ -45,6 +46,7 @@ void stage_open(struct stage *stage, int argc, char **argv, enum role role)
         (options->stand_by ? segment_stand_by : segment_attach)(&stage->view, options->world, role,
                                                                 &error) != 0)
         die_refused("%s", error.text);
+    segment_prefault(&stage->view);
     work_done_into(&stage->view.slot[role]->work);
     stage->workers = thread_pool_create(options->threads);
     if (!stage->workers)

@@ -8,7 +8,6 @@
 
 #include <stdlib.h>
 #include <string.h>
-#include <sys/mman.h>
 
 /* Cells along an edge, of 781 m, 391 m or 195 m. More cells than vehicles only cost time. */
 #define SIDE_FEW  64u
@@ -18,7 +17,6 @@
 #define MORE_ROWS 131072u
 
 #define BLOCK_ROWS 2048u /* fit a second-level cache */
-#define HUGE_PAGE  (UINT64_C(2) << 20)
 
 /* A row of cells has room for an eighth more entries than it holds when the index is built, and for
  * some more. */
@@ -41,27 +39,13 @@ uint32_t neighbour_index_room(uint32_t rows)
     return rows + rows / ROOM_SHARE + SIDE_MANY * ROOM_LEAST;
 }
 
-/* Queries read all parts of the entries. Large pages, where the kernel has them, cause fewer misses
- * of the translation buffer. */
-static void *large(size_t bytes)
-{
-    if (bytes < HUGE_PAGE)
-        return malloc(bytes);
-    bytes = (bytes + HUGE_PAGE - 1) / HUGE_PAGE * HUGE_PAGE;
-    void *memory = aligned_alloc(HUGE_PAGE, bytes);
-    if (memory)
-        madvise(memory, bytes,
-                MADV_HUGEPAGE); /* a kernel without large pages refuses, which does no harm */
-    return memory;
-}
-
 int neighbour_index_init(struct neighbour_index *index, uint32_t capacity)
 {
     uint32_t room = neighbour_index_room(capacity);
     *index = (struct neighbour_index){.capacity = capacity};
     index->start =
         calloc((NEIGHBOUR_INDEX_LAYERS * SIDE_MANY + 1) * SIDE_MANY, sizeof *index->start);
-    index->entries = large(room * sizeof *index->entries);
+    index->entries = malloc(room * sizeof *index->entries);
     index->agent = malloc(room * sizeof *index->agent);
     index->room = calloc(SIDE_MANY + 1, sizeof *index->room);
     index->held = calloc(SIDE_MANY, sizeof *index->held);

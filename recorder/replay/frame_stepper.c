@@ -17,6 +17,7 @@ int frame_stepper_init(struct frame_stepper *stepper, struct view *view, uint32_
         goto err_mover;
     uint32_t rows = table_touch_rows(view->w[frame_stepper_frame(stepper) & 1].head->used,
                                      view->header->capacity);
+    segment_prefault(view);
     mover_touch(&stepper->mover, &view->m, view->w, rows);
     collider_touch(&stepper->collider, &view->m, view->w, rows);
     return 0;

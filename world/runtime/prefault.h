@@ -9,14 +9,10 @@
 
 #include <stddef.h>
 
-/* Takes the pages of private, writable memory. From PREFAULT_LARGE_BYTES on they are large ones. */
-#define PREFAULT_LARGE_BYTES ((size_t)4 << 20)
-void prefault_own(void *memory, size_t bytes);
+/* Large arrays get large pages (world/runtime/large_pages.h). */
 
-/* Lets the kernel back a mapping by large pages. Of shared memory it does so only where the
- * administrator allows it (/sys/kernel/mm/transparent_hugepage/shmem_enabled, or the mount option
- * huge= of /dev/shm). */
-void prefault_large(void *memory, size_t bytes);
+/* Takes the pages of private, writable memory. */
+void prefault_own(void *memory, size_t bytes);
 
 /* Takes the pages of a shared mapping for writing. The mapping is writable. */
 void prefault_shared(void *memory, size_t bytes);
