@@ -12,7 +12,7 @@
 #include <string.h>
 
 #define BLOCK  64
-#define AHEAD  8    /* rows from the prefetch of one to its use */
+#define AHEAD  24   /* rows from the prefetch of one to its use */
 #define LONG_M 64.0 /* extent in x from which a path is clipped to its strips */
 
 /* Not all bodies whose boxes meet theirs are pairs with such rows. */
@@ -120,6 +120,7 @@ static void take_kinds(const struct body_boxes *rows, struct block *block, uint3
 {
     const struct entity *row = rows->input->entities->row + first;
     for (uint32_t k = 0; k < count; k++) {
+        __builtin_prefetch(&row[k + AHEAD].kind);
         uint32_t kind = row[k].state != ENTITY_FREE ? row[k].kind : 0;
         block->margin[k] = rows->margin[kind];
         if (rows->wider && rows->wider[first + k] != BODY_BOX_EXACT)

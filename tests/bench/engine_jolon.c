@@ -6,6 +6,7 @@
 #include "world/entity/entity.h"
 #include "world/entity/kind.h"
 #include "world/params.h"
+#include "world/runtime/prefault.h"
 #include "world/terrain/fixed.h"
 #include "world/world.h"
 
@@ -71,6 +72,7 @@ static void make_world(struct jolon *self)
         mmap(NULL, self->rows_bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
     if (self->rows == MAP_FAILED)
         die_refused("out of memory");
+    prefault_own(self->rows, self->rows_bytes);
     entities_bind(&self->entities, scene->bodies, self->rows);
     self->path = reserve(scene->bodies * sizeof *self->path);
     for (uint32_t i = 0; i < scene->bodies; i++) {
@@ -99,6 +101,7 @@ static void *jolon_open(const struct engine_scene *scene, uint32_t threads)
     self->workers = thread_pool_create(threads);
     if (!self->workers || broad_phase_init(&self->broad, &self->world, self->workers) != 0)
         die_refused("cannot begin: %s", strerror(errno));
+    broad_phase_touch(&self->broad, scene->bodies);
     for (int i = 0; i < THREAD_POOL_MAX; i++) {
         if (pair_list_init(&self->touching[i], pair_filter_pairs_first(&self->world)) != 0)
             die_refused("cannot begin: %s", strerror(errno));
