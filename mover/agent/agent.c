@@ -336,6 +336,24 @@ static void keep_route(const struct step_context *context, uint32_t i,
         mission_route_pace(context, i, route, desired);
 }
 
+/* Drives from goal to goal. Where all of them are one place it stops there. */
+static void drive_order(const struct step_context *context, uint32_t i, double speed_mps,
+                        struct desired_motion *desired)
+{
+    const struct entities *m = context->m;
+    const struct kind *kind = &context->world->kinds[m->row[i].kind];
+    if (goal_arrived(context, i))
+        goal_next(context, i);
+    if (goal_is_place(context, i)) {
+        if (goal_arrived(context, i))
+            return;
+        speed_mps = maths_min(speed_mps, sqrt(2.0 * kind->acceleration_mps2 * way_to_goal(m, i)));
+    }
+    drive_to_goal(context, i, speed_mps, desired);
+    if (m->row[i].behaviour == BEHAVIOUR_ROUTE)
+        keep_route(context, i, desired);
+}
+
 static void drive_by_behaviour(const struct step_context *context, uint32_t i,
                                struct desired_motion *desired)
 {
@@ -348,11 +366,7 @@ static void drive_by_behaviour(const struct step_context *context, uint32_t i,
         break;
     case BEHAVIOUR_PATROL:
     case BEHAVIOUR_ROUTE:
-        if (goal_arrived(context, i))
-            goal_next(context, i);
-        drive_to_goal(context, i, cruise, desired);
-        if (m->row[i].behaviour == BEHAVIOUR_ROUTE)
-            keep_route(context, i, desired);
+        drive_order(context, i, cruise, desired);
         break;
     case BEHAVIOUR_FOLLOW:
         formation_keeping_follow(context, i, desired);

@@ -15,6 +15,9 @@
 #include "world/world.h"
 
 #define ARRIVED_M  25.0
+#define ROOMY_M    100.0 /* an order of a land vehicle that is smaller than this has goals */
+#define REACH      0.35  /* of its size apart, so that it has always one that is not reached; */
+#define REACH_M    3.0   /* but no wheels get nearer than this */
 #define HOME_M     150.0 /* a base has room for many vehicles */
 #define FLEE_M     2000.0
 #define DETOUR_M   400.0 /* around what blocks the path to the base */
@@ -238,6 +241,38 @@ void goal_base(const struct step_context *context, uint32_t i)
     base_place(context, i, &context->m->row[i].goal_x, &context->m->row[i].goal_z);
 }
 
+/* Returns the longer side of the rectangle of a route, or ROOMY_M if it is longer. */
+static double route_size(const struct step_context *context, const struct route *route)
+{
+    const struct route_point *point = context->world->route_points + route->first;
+    double x0 = point[0].x, x1 = x0, z0 = point[0].z, z1 = z0, size = 0.0;
+    for (uint32_t n = 1; n < route->count && size < ROOMY_M; n++) {
+        x0 = maths_min(x0, point[n].x);
+        x1 = maths_max(x1, point[n].x);
+        z0 = maths_min(z0, point[n].z);
+        z1 = maths_max(z1, point[n].z);
+        size = maths_max(x1 - x0, z1 - z0);
+    }
+    return maths_min(size, ROOMY_M);
+}
+
+/* Returns how large the area or the route is to which its order keeps a land vehicle, at most
+ * ROOMY_M [m]. */
+static double order_size(const struct step_context *context, uint32_t i)
+{
+    const struct entities *m = context->m;
+    if (context->world->kinds[m->row[i].kind].domain != DOMAIN_LAND)
+        return ROOMY_M;
+    if (m->row[i].behaviour == BEHAVIOUR_PATROL) {
+        const struct area *area = &context->world->areas[m->row[i].order_arg];
+        return maths_min(maths_max(area->x1 - area->x0, area->z1 - area->z0), ROOMY_M);
+    }
+    if (m->row[i].behaviour != BEHAVIOUR_ROUTE)
+        return ROOMY_M;
+    const struct route *route = &context->world->routes[m->row[i].order_arg];
+    return route->once ? ROOMY_M : route_size(context, route);
+}
+
 static bool within(const struct step_context *context, uint32_t i, double x, double z,
                    double metres)
 {
@@ -254,7 +289,18 @@ static bool within(const struct step_context *context, uint32_t i, double x, dou
 
 bool goal_arrived(const struct step_context *context, uint32_t i)
 {
-    return within(context, i, context->m->row[i].goal_x, context->m->row[i].goal_z, ARRIVED_M);
+    const struct entities *m = context->m;
+    const double size = order_size(context, i);
+    double metres = ARRIVED_M;
+    if (size < ROOMY_M)
+        metres = maths_min(metres, maths_max(REACH * size, REACH_M) -
+                                       context->world->kinds[m->row[i].kind].radius_m);
+    return within(context, i, m->row[i].goal_x, m->row[i].goal_z, metres);
+}
+
+bool goal_is_place(const struct step_context *context, uint32_t i)
+{
+    return REACH * order_size(context, i) <= REACH_M;
 }
 
 bool goal_in_position(const struct step_context *context, uint32_t i)

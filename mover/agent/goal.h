@@ -35,8 +35,12 @@ void goal_target(const struct step_context *context, uint32_t i, uint32_t row, u
 void goal_base(const struct step_context *context, uint32_t i);
 bool goal_at_base(const struct step_context *context, uint32_t i);
 
-/* Returns true if it is as near to its goal as a body of its kind can get. */
+/* Returns true if it is as near to its goal as a body of its kind can get; of a land vehicle whose
+ * patrol or route is smaller than 100 m, as a third of that. */
 bool goal_arrived(const struct step_context *context, uint32_t i);
+
+/* Returns true if its patrol or route is so small that all its goals are one place. */
+bool goal_is_place(const struct step_context *context, uint32_t i);
 
 /* Chooses another goal after the path was blocked. */
 void goal_blocked(const struct step_context *context, uint32_t i);

@@ -5,6 +5,7 @@
 #include <stddef.h>
 #include <setjmp.h>
 #include <stdint.h>
+#include <stdio.h>
 
 #include <cmocka.h>
 
@@ -441,6 +442,54 @@ static void test_an_interrupted_route_goes_on_to_the_point_it_was_heading_for(vo
     assert_true(e.row[0].goal_x == route[0][0] && e.row[0].goal_z == route[0][1]);
 }
 
+/* Each has its orders within 25 m. The last two have no way to drive. */
+static const char *const little_text =
+    "world = { seed = 1; capacity = 64; hz = 20.0; };"
+    "vehicles = ("
+    "{ kind = \"jeep\"; at = [25000.0, 25000.0]; route = ( [25000.0, 25000.0], [25010.0, 25004.0],"
+    " [25004.0, 25010.0] ); },"
+    "{ kind = \"truck\"; at = [25200.0, 25000.0]; route = ( [25200.0, 25000.0], [25212.0, 25000.0],"
+    " [25212.0, 25016.0], [25200.0, 25016.0] ); },"
+    "{ kind = \"tank\"; at = [25400.0, 25000.0]; route = ( [25400.0, 25000.0], [25409.0, 25003.0],"
+    " [25403.0, 25009.0] ); },"
+    "{ kind = \"jeep\"; at = [25650.0, 25000.0]; behaviour = \"patrol\";"
+    " area = [25600.0, 25000.0, 25612.0, 25012.0]; },"
+    "{ kind = \"jeep\"; at = [25800.0, 25000.0]; route = ( [25801.0, 25000.0], [25800.0, 25001.0]"
+    " ); },"
+    "{ kind = \"tank\"; at = [26000.0, 25000.0]; route = ( [26050.0, 25000.0], [26051.0, 25001.0]"
+    " ); } );";
+
+static void test_orders_in_little_room_are_driven_without_a_twitch(void **state)
+{
+    enum { ROWS = 6, DRIVE = 4 };
+    int turned[ROWS] = {0}, before[ROWS] = {0};
+    double way_m[ROWS] = {0.0};
+    (void)state;
+    fixture_close(&f);
+    fixture_open(&f, little_text);
+    fixture_run(&f, (uint32_t)(20.0 * HZ));
+    for (int frame = 0; frame < (int)(60.0 * HZ); frame++) {
+        fixture_run(&f, 1);
+        struct entities e = steps_rows(&f);
+        for (uint32_t row = 0; row < ROWS; row++) {
+            double sine, cosine;
+            maths_sincos(e.row[row].heading, &sine, &cosine);
+            double ahead_mps = e.row[row].vx * sine - e.row[row].vz * cosine;
+            int sign = ahead_mps > 0.05 ? 1 : ahead_mps < -0.05 ? -1 : before[row];
+            turned[row] += sign * before[row] < 0;
+            before[row] = sign;
+            way_m[row] += steps_speed(&f, row) / HZ;
+        }
+    }
+    for (uint32_t row = 0; row < ROWS; row++) {
+        printf("row %u: %.0f m, %d times the other way in a minute\n", row, way_m[row],
+               turned[row]);
+        assert_true(turned[row] < 40);
+        assert_true(row < DRIVE ? way_m[row] > 70.0 : way_m[row] < 0.5);
+    }
+    assert_true(fabs(steps_position(&f, ROWS - 1).x - 26050.0) < 5.0);
+}
+
 int main(void)
 {
 #define TEST(function)                                                                             \
@@ -464,6 +513,7 @@ int main(void)
         TEST(test_a_patrol_stays_in_its_area),
         TEST(test_a_decision_that_confirms_the_course_leaves_the_controls),
         TEST(test_a_route_is_driven_in_its_order_again_and_again),
+        TEST(test_orders_in_little_room_are_driven_without_a_twitch),
         TEST(test_an_interrupted_route_goes_on_to_the_point_it_was_heading_for),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
