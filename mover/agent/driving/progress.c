@@ -13,7 +13,7 @@
 #define SLOW_SHARE 0.06 /* or than this share of it */
 #define SCRAPES    0.25 /* of the wanted speed: one that touches something and is slower scrapes */
 #define TOUCHES_S  2.0  /* by a contact that has lasted so long */
-#define WAITS_S    20.0 /* a land vehicle waits so long where no way is free */
+#define WAITS_S    6.0  /* a land vehicle waits so long where no way is free */
 #define WAITS_EASE 0.5f /* share of its speed that it gives up there */
 #define WAITS_TURN 8u   /* one of so many decisions counts */
 #define GIVES_UP   0.1  /* share of its tries after which one gives up: after two minutes */

@@ -6,7 +6,7 @@
 
 /* Counts the decisions of row i's agent in which the vehicle drives and does not get on: it is
  * nearly at rest, or on land scrapes along what it touches at less than a quarter of the speed that
- * it wants. Returns true when that has lasted for 3 s, or for 20 s where a land vehicle stands
+ * it wants. Returns true when that has lasted for 3 s, or for 6 s where a land vehicle stands
  * since no way before it is free, and counts from 0 again. For each decision once. */
 bool progress_stalled(const struct step_context *context, uint32_t i);
 
