@@ -346,6 +346,8 @@ $(BUILD)/flags: $(call rewritten,$(BUILD)/flags,FLAGS) | $(STAMP)
 FORCE:
 
 # --- tests --------------------------------------------------------------------------------------
+# Calls of these functions go to __wrap_NAME of a test.
+WRAP = -Wl,$(subst $(space),$(comma),$(patsubst %,--wrap=%,$(1)))
 # tests/unit/FOLDER/test_NAME.c may use that folder's library beside those that every test may use.
 COMMON := support renderer $(STEPS) config topics http ipc world
 own_library = $(or $(filter $(CLIENTS) intake physics worldctl sandbox tool,$(word 4,$(subst /, ,$(1)))),$(filter recorder reporter supervisor physics bench,$(word 3,$(subst /, ,$(1)))))
@@ -364,7 +366,7 @@ $(BUILD)/tests/crash/test_crash: $(call objects,$(call sources,tests/crash))
 $(GOLDEN_TESTS): $(call libraries,bench)
 $(BUILD)/tests/property/bench/test_heap_run: $(call libraries,physics)
 $(BUILD)/tests/%: $(OBJ)/tests/%.o $(call libraries,$(COMMON))
-	$(call link,$(TEST_LIBS))
+	$(call link,$(call WRAP,aiImportFileEx aiReleaseImport) $(TEST_LIBS)) # tests/support/kept_models.c
 
 # Preloaded by system tests; it stands in the way of functions that the headers say much about.
 FAILING := $(BUILD)/tests/faults/failing.so
@@ -410,9 +412,8 @@ crash: | $(STAMP) $(TEST_STAMP)
 # tree for them.
 FUZZERS := $(patsubst tests/fuzz/%.c,$(BIN)/%,$(filter tests/fuzz/fuzz_%,$(FUZZ_SRC)))
 fuzzers: $(FUZZERS)
-FUZZ_WRAP = -Wl,$(subst $(space),$(comma),$(patsubst %,--wrap=%,$(1)))
-$(BIN)/fuzz_scenario $(BIN)/fuzz_kind: FUZZ_LINK = $(call FUZZ_WRAP,aiImportFileEx aiReleaseImport)
-$(BIN)/fuzz_ctl $(BIN)/fuzz_log: FUZZ_LINK = $(call FUZZ_WRAP,exit)
+$(BIN)/fuzz_scenario $(BIN)/fuzz_kind: FUZZ_LINK = $(call WRAP,aiImportFileEx aiReleaseImport)
+$(BIN)/fuzz_ctl $(BIN)/fuzz_log: FUZZ_LINK = $(call WRAP,exit)
 $(BIN)/fuzz_ctl: $(call libraries,ctl)
 $(BIN)/fuzz_command: $(call libraries,intake)
 $(BIN)/fuzz_console: $(call libraries,console)
