@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Drives a vehicle around a square and fires at enemies that come near, by `jolon harness`.
 
-usage: sentry.py [-w WORLD] [--jolon PATH] [--seconds N] [--side METRES] VEHICLE
+usage: sentry.py [-w WORLD] [--jolon PATH] [--seconds N] [--corners N] [--side METRES] VEHICLE
 VEHICLE is an id or a name. Needs only Python's standard library. See docs/examples/README.md.
 """
 import argparse
@@ -48,6 +48,7 @@ def main():
     parser.add_argument("-w", "--world", default="default")
     parser.add_argument("--jolon", default="jolon")
     parser.add_argument("--seconds", type=float, default=60)
+    parser.add_argument("--corners", type=int, default=0, help="end sooner, after so many corners")
     parser.add_argument("--side", type=float, default=60, help="of the square [m]")
     parser.add_argument("vehicle")
     options = parser.parse_args()
@@ -56,8 +57,10 @@ def main():
     harness = Harness(options.jolon, options.world)
     harness.send(want={"entities": {"near": vehicle, "within_m": 400}, "rate_hz": 10,
                        "events": ["detonation"]})
-    threading.Timer(options.seconds, harness.close).start()
-    corners, at, fire, reloaded, munitions = None, 0, None, 0.0, set()
+    timer = threading.Timer(options.seconds, harness.close)
+    timer.daemon = True
+    timer.start()
+    corners, at, passed, fire, reloaded, munitions = None, 0, 0, None, 0.0, set()
     for line in harness.lines():
         if "kinds" in line:
             munitions = {kind["name"] for kind in line["kinds"] if kind["domain"] == "munition"}
@@ -82,6 +85,10 @@ def main():
             if away < 15:
                 at = (at + 1) % 4
                 print(f"corner {at} at {x:.0f},{z:.0f}", flush=True)
+                passed += 1
+                if passed == options.corners:
+                    harness.close()
+                    continue
             harness.send(do="drive", vehicle=own["id"], throttle=0.3 if abs(steer) > 0.5 else 0.6,
                          steer=steer)
             foes = [e for e in line["entities"] if e["state"] == "active" and

@@ -7,6 +7,9 @@ import path from 'node:path';
 const { BROWSER, MODULES, JOLON_BIN, WORLD, SHOTS } = process.env;
 const { chromium } = createRequire(`${MODULES}/`)('playwright-core');
 
+/** How long something may take on a machine that has other work. */
+const PATIENCE_MS = 60000;
+
 /** The page's own complaints. A refused answer is one too, but what it says is the page's to show. */
 export const complaints = [];
 
@@ -39,7 +42,7 @@ async function show(page, i) {
 }
 
 /** Waits until a deed gives something true. */
-export async function eventually(deed, what, limit_ms = 15000) {
+export async function eventually(deed, what, limit_ms = PATIENCE_MS) {
   const end = Date.now() + limit_ms;
   let last;
   while (Date.now() < end) {
@@ -59,7 +62,7 @@ export async function openBrowser() {
 export async function openPage(browser, url, width, height, options = {}) {
   const context = await browser.newContext({ viewport: { width, height }, ...options });
   const page = await context.newPage();
-  page.setDefaultTimeout(15000);
+  page.setDefaultTimeout(PATIENCE_MS);
   page.on('pageerror', (error) => complaints.push(error.stack));
   page.on('console', (message) => {
     const refused = /^Failed to load resource: the server responded with a status of \d+/.test(message.text());
@@ -75,7 +78,7 @@ export async function openPage(browser, url, width, height, options = {}) {
 }
 
 export async function shot(page, name) {
-  await page.screenshot({ path: path.join(SHOTS, `${name}.png`), timeout: 30000 });
+  await page.screenshot({ path: path.join(SHOTS, `${name}.png`), timeout: PATIENCE_MS });
 }
 
 export function jolon(...words) {

@@ -52,7 +52,7 @@ check "a world starts" "$jolon" start -w "$name" --out "$folder/out" --set rende
 console=$!
 check "a console starts" eventually grep -q '#token=' url
 URL=$(head -n 1 url) BROWSER=$(command -v chromium) MODULES=$work JOLON_BIN=$bin WORLD=$name SHOTS=$work \
-    timeout 200 node "$here/console.mjs" >tap 2>browser.err
+    timeout 900 node "$here/console.mjs" >tap 2>browser.err
 while IFS= read -r line; do
     case $line in
     "ok "*) ok "${line#* - }" ;;

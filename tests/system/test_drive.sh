@@ -36,11 +36,19 @@ check "the vehicle was released at the end" eventually is 4 behaviour idle
 check "one line says that only keys are in use" [ "$(grep -c 'in use: keys' plain)" = 1 ]
 
 # --- a vehicle that is lost -----------------------------------------------------------------------
-(sleep 4; printf ' '; sleep 1; printf q) | "$jolon" drive J4 --plain -w "$name" >lost 2>&1 &
+mkfifo keys
+exec {keys}<>keys
+"$jolon" drive J4 --plain -w "$name" <keys >lost 2>&1 &
 check "J4 is taken again" eventually is 4 behaviour driven
 "$jolon" ctl remove J4 -w "$name" >/dev/null
+told() { [ "$(grep -c 'is gone; n takes the next vehicle' lost)" = "$1" ]; }
+check "a loss is told at once" eventually told 1
+printf ' ' >&$keys
+check "and again to who would fire" eventually told 2
+printf q >&$keys
 wait $!
-check "a loss is told at once, and again to who would fire" equal "$(grep -c 'is gone; n takes the next vehicle' lost)" 2
+exec {keys}>&-
+check "and not more often" told 2
 
 # --- a client that dies -------------------------------------------------------------------------
 sleep 12 | "$bin/jolon-drive" T3 --plain -w "$name" >held 2>&1 &

@@ -108,9 +108,12 @@ check "a second receiver at its address is refused" refused "127.0.0.1:$in: cann
     "$jolon" dis dump --listen "127.0.0.1:$in" --seconds 1
 sed -i 's/1\.1\.225\.1\.1\.2\.0/1.1.225.1.1.2/' "$data/dis/types.txt"
 SECONDS=0
+stalled
+stalled_before=$stalled_us
 check "a restart with a broken table of types is refused" refused 'gateway refused: .*types.txt:[0-9]*: .*seven numbers' "$jolon" restart -w "$name" gateway
 check "another one as well" refused 'gateway refused: .*types.txt:[0-9]*: .*seven numbers' "$jolon" restart -w "$name" gateway
-check "neither takes 20 s" [ $SECONDS -lt 18 ]
+stalled
+check "neither takes 20 s" [ $((SECONDS - (stalled_us - stalled_before) / 1000000)) -lt 18 ]
 cp "$here/../../config/dis/types.txt" "$data/dis/types.txt"
 check "and with a good one it runs" "$jolon" restart -w "$name" gateway
 "$jolon" stop -w "$name" >/dev/null

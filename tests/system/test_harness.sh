@@ -25,7 +25,7 @@ check "a set starts" "$jolon" start -w "$name" --without renderer --without reco
 # --- both programs drive while processes die ---------------------------------------------------------
 CYCLONEDDS_URI=file://$top/config/cyclonedds.xml "$escort" "$name" 2 1 >escort.out 2>&1 &
 escorting=$!
-python3 "$top/docs/examples/sentry.py" --jolon "$jolon" -w "$name" --seconds 9 --side 25 Sentry >sentry.out 2>&1 &
+python3 "$top/docs/examples/sentry.py" --jolon "$jolon" -w "$name" --seconds 90 --corners 2 --side 25 Sentry >sentry.out 2>&1 &
 watching=$!
 sleep 1
 for role in intake mover reporter; do

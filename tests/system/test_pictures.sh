@@ -40,7 +40,7 @@ class Client:
         body = b"" if method == "HEAD" else self.file.read(int(head.get("Content-Length", 0)))
         if head.get("Connection") == "close":
             self.file = None
-        if status == 503 and b"ask again\n" == body[-10:] and b"within" in body:
+        if status == 503 and body in (b"no picture within a second; ask again\n", b"the map is not ready; ask again\n"):
             return self.get(path, method)  # a busy machine
         return status, head, body
 
@@ -79,6 +79,24 @@ def watch_all(queries, seconds):
     return [result[0] for result in results]
 
 
+def another(client, query, number):
+    """Returns the head of the first picture with another number. A busy machine may need more than the second that an answer waits."""
+    for _ in range(60):
+        head = client.get("/picture.jpg?%s&after=%d" % (query, number))[1]
+        if int(head["X-Picture"]) != number:
+            return head
+    raise AssertionError("no other picture than %d" % number)
+
+
+def stalled():
+    """Returns how long programs of this machine have waited for a processor [s], 0 where the kernel keeps no count."""
+    try:
+        with open("/proc/pressure/cpu", encoding="ascii") as file:
+            return int(file.readline().split("total=")[1]) / 1e6
+    except OSError:
+        return 0.0
+
+
 def refused(path, status, words):
     got, _, body = Client().get(path)
     assert got == status and words in body.decode(), (path, got, body)
@@ -92,6 +110,8 @@ $1"; }
 "$jolon" run -w "$name" --out out --json hunter-liggett >watched.json 2>err &
 run=$!
 eventually test -f out/chase.png
+has_begun() { [ "$(frame)" -gt 0 ]; }
+eventually has_begun
 time_begins
 
 check "each view of several vehicles has the requested size" asks '
@@ -109,7 +129,7 @@ assert size_of(bar) == size_of(bare) and len(bar) > len(bare) + 3000, (len(bar),
 check "after=N gives another picture, of a later frame" asks '
 client, last = Client(), (0, 0)
 for i in range(5):
-    head = client.get("/picture.jpg?vehicle=2&size=160x120&after=%d" % last[0])[1]
+    head = another(client, "vehicle=2&size=160x120", last[0])
     now = int(head["X-Picture"]), int(head["X-Frame"])
     assert now[0] > last[0] and now[1] > last[1], (last, now)
     last = now'
@@ -170,14 +190,15 @@ grep pictures check | sed 's/^/# /'
 check "the renderer gives pictures again after a kill" asks '
 import subprocess
 subprocess.run(["'"$jolon"'", "kill", "-w", "'"$name"'", "renderer"], check=True, stdout=subprocess.DEVNULL)
-begun = time.monotonic()
+begun, stalled_before = time.monotonic(), stalled()
 while True:
     try:
         if Client().get("/picture.jpg?vehicle=5")[0] == 200:
             break
     except (OSError, IndexError, ValueError):
         pass
-    assert time.monotonic() - begun < 5
+    took = time.monotonic() - begun
+    assert took < 60 and took - (stalled() - stalled_before) < 5
     time.sleep(0.01)
 print("a picture %.2f s after the kill" % (time.monotonic() - begun))'
 grep "after the kill" check | sed 's/^/# /'

@@ -114,11 +114,10 @@ printf '#!/bin/sh\necho halted $$\nkill -STOP $$\n' >programs/jolon-reporter
 chmod +x programs/jolon-reporter
 rm -f out/jolon.log
 programs/jolon start -w "$name" --without renderer --out out >/dev/null 2>&1 &
-halted=''
-for _ in $(seq 2000); do # quick looks, because the supervisor replaces it soon
-    halted=$(sed -n 's/^halted //p' out/jolon.log 2>/dev/null | tail -n 1)
-    [ -z "$halted" ] || break
+halted='' late=$((SECONDS + 60))
+until [ -n "$halted" ] || [ $SECONDS -ge $late ]; do # quick looks, because the supervisor replaces it soon
     sleep 0.005
+    halted=$(sed -n 's/^halted //p' out/jolon.log 2>/dev/null | tail -n 1)
 done
 check "a role is stopped at its start" test -n "$halted"
 kill -KILL "$(cat "$(path_of lock)")"

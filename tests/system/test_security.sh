@@ -38,9 +38,11 @@ done
 try read forged.xml . &
 wait
 said() { equal "$(tail -n 1 "$1")" "$2"; }
-check "an operator reads the status" said read.alice. heard
-check "an operator's command is answered" said command.alice. answered
-check "a viewer reads the status" said read.bob. heard
+# A try lasts three seconds, which a busy machine may need to start a client.
+said_again() { said "$1.$2." "$3" || { try "$1" "keys/$2.xml" .; said "$1.$2." "$3"; }; } # VERB NAME WORD
+check "an operator reads the status" eventually said_again read alice heard
+check "an operator's command is answered" eventually said_again command alice answered
+check "a viewer reads the status" eventually said_again read bob heard
 check "a viewer may not command" grep -q 'Not Allowed By Security' command.bob.
 check "a client without a certificate hears nothing" said read.none. unheard
 check "the client's command is not answered" said command.none. unanswered

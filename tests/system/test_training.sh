@@ -17,18 +17,21 @@ check "one, two and four threads agree" equal "$(summaries | sort -u | wc -l)" 1
 check "nobody fires, and nothing breaks" \
     equal "$(json detonations <summary-1) $(json collisions <summary-1) $(json destroyed <summary-1)" "0 0 0"
 
-check "a set starts with the training scenario" "$jolon" start -w "$name" --without renderer --out out training
+check "a set starts with the training scenario" "$jolon" start -w "$name" --without renderer --out out --set world.pace=max training
 height() { "$jolon" world dump --terrain "$1,$2,$1,$2,1" -w "$name" | tail -n 1 | cut -d, -f3; }
 check "the ramp is on the ground" equal "$(height 25000 24765 | cut -d. -f1)" 150
 check "the deep ford is dug into it" equal "$(height 25116 24850 | cut -c1-6)" 148.55
 
-# The jeep goes over the first jump: a sample shows it above the level ground.
+# The jeep goes over the first jump: a sample shows it above the level ground. The world goes on in steps, so
+# that no machine is too slow to see it.
+"$jolon" ctl pause -w "$name" >/dev/null
 "$jolon" ctl drive 1 --throttle 1 --lease 60 -w "$name" >/dev/null 2>&1
-above() { "$jolon" world dump --json -w "$name" | python3 -c '
+above() { "$jolon" ctl step 15 -w "$name" >/dev/null; "$jolon" world dump --json -w "$name" | python3 -c '
 import json, sys
 jeep = [e for e in map(json.loads, sys.stdin) if e["id"] == 1][0]
 sys.exit(not jeep["position"][1] > 150.15)'; }
-check "the jeep drives up a ramp" eventually above
+jumps() { local n; "$jolon" ctl step 700 -w "$name"; for n in $(seq 60); do ! above || return 0; done; return 1; }
+check "the jeep drives up a ramp" jumps
 check "the set stops" "$jolon" stop -w "$name"
 
 # --- a person who does not say where ----------------------------------------------------------------
