@@ -101,8 +101,10 @@ static int check_number(const struct checking *checking, uint32_t index, double 
     if (word->length > NUMBER_TEXT_MAX || number_length(word->text) != word->length)
         return refuse(checking, index, "is not a number; right would be: a number such as -1.25");
     double value = strtod(word->text, NULL);
+    if (value >= low && value <= high)
+        return 0;
     snprintf(wrong, sizeof(wrong), "out of range; allowed: %g..%g", low, high);
-    return value >= low && value <= high ? 0 : refuse(checking, index, wrong);
+    return refuse(checking, index, wrong);
 }
 
 /* Checks that the words after the first are numbers, `least` to `most` of them. */

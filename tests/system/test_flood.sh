@@ -14,9 +14,9 @@ frame() { "$jolon" status -w "$name" --json | json commit; }
 # held WHAT OPTION...: checks a driver's answers during a flood. Other programs that want the processor can only
 # make answers later, so one of three floods must be answered in time.
 held() {
-    local what=$1 try
+    local what=$1
     shift
-    for try in 1 2 3; do
+    for _ in 1 2 3; do
         # shellcheck disable=SC2086 # words
         check "a flood of $what is sent" eval "$flood $* >told"
         echo "# figures: $what: $(cat told)"

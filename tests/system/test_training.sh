@@ -30,7 +30,7 @@ above() { "$jolon" ctl step 15 -w "$name" >/dev/null; "$jolon" world dump --json
 import json, sys
 jeep = [e for e in map(json.loads, sys.stdin) if e["id"] == 1][0]
 sys.exit(not jeep["position"][1] > 150.15)'; }
-jumps() { local n; "$jolon" ctl step 700 -w "$name"; for n in $(seq 60); do ! above || return 0; done; return 1; }
+jumps() { "$jolon" ctl step 700 -w "$name"; for _ in $(seq 60); do ! above || return 0; done; return 1; }
 check "the jeep drives up a ramp" jumps
 check "the set stops" "$jolon" stop -w "$name"
 
