@@ -19,6 +19,12 @@
  * degrees. */
 #define STANDS_UP 0.5
 
+/* The least level part of a face's normal, squared: a lesser one is rounding. */
+#define LEVEL_FACE 1e-12
+
+/* Places inside two bodies that are looked at. */
+#define INSIDE_POINTS 4u
+
 /* Bodies at one place part as if they were so far apart, times the root of their ids [m]. */
 #define COINCIDENT_M 1e-4
 #define GOLDEN_ANGLE 2.399963229728653 /* [rad] */
@@ -126,35 +132,75 @@ static double capsule_gap(const struct capsule *a, const struct capsule *b, stru
     return crossing ? -radii : distance - radii;
 }
 
-/* Returns how far inside one of the body's hulls the point is, wherever its turret points [m]. */
-static double depth_within(const struct begun_body *begun, struct vec3 point)
+/* Returns how far inside a hull a point is: a ball of this radius around it is within all faces, or
+ * a level disc, which a level face hardly bounds. up: the world's up axis for a disc, else NULL;
+ * all on the body's axes. Ends with 0 if the radius is no more than least_m. */
+static inline double radius_within(const struct hull_plane *plane, uint32_t planes, struct vec3 at,
+                                   const struct vec3 *up, double least_m)
+{
+    double square = INFINITY, level = 1.0; /* the radius is the root of their ratio */
+    for (uint32_t i = 0; i < planes; i++) {
+        double depth = plane[i].offset_m - vec3_dot(plane[i].normal, at), share = 1.0;
+        if (up) {
+            double steep = vec3_dot(plane[i].normal, *up);
+            share = maths_max(1.0 - steep * steep, LEVEL_FACE);
+        }
+        if (depth <= 0.0 || depth * depth <= least_m * least_m * share)
+            return 0.0;
+        if (depth * depth * level < square * share) {
+            square = depth * depth;
+            level = share;
+        }
+    }
+    return sqrt(square / level);
+}
+
+/* Returns how far inside one of the body's hulls the point is, or more than enough_m, wherever its
+ * turret points [m]. */
+static inline double depth_within(const struct begun_body *begun, struct vec3 point, bool discs,
+                                  double enough_m)
 {
     const struct swept_body *body = &begun->body;
     struct vec3 at = rotation_back(&begun->began, vec3_sub(point, body->path.at));
+    struct vec3 up = rotation_back(&begun->began, (struct vec3){0.0, 1.0, 0.0});
     double deepest = 0.0;
-    for (uint32_t i = 0; i < body->hull_count; i++) {
-        const struct hull_plane *plane = body->planes + body->hull[i].first_plane;
-        double depth = body->hull[i].part == HULL_PART_BODY ? INFINITY : 0.0;
-        for (uint32_t n = 0; n < body->hull[i].plane_count && depth > deepest; n++)
-            depth = maths_min(depth, plane[n].offset_m - vec3_dot(plane[n].normal, at));
-        deepest = maths_max(deepest, depth);
+    for (uint32_t i = 0; i < body->hull_count && deepest <= enough_m; i++) {
+        const struct hull *hull = &body->hull[i];
+        const struct hull_plane *plane = body->planes + hull->first_plane;
+        if (hull->part == HULL_PART_BODY)
+            deepest = maths_max(
+                deepest, radius_within(plane, hull->plane_count, at, discs ? &up : NULL, deepest));
     }
     return deepest;
 }
 
-/* Returns true if the bodies themselves are so deep in each other when the frame begins. A hull may
- * be narrower than the capsule at its height: the bonnet of a truck, the trails of a howitzer.
- * Mostly a point over the middle is inside both, which proves it sooner than a search. */
-static bool are_deep(const struct begun_body *a, const struct begun_body *b, struct vec3 middle,
-                     struct vec3 up, double height_m, double depth_m)
+/* Returns true if the bodies overlap by more than depth_m along any level normal, because one of
+ * these points is so far inside both. */
+static inline bool prove_deep(const struct begun_body *a, const struct begun_body *b,
+                              const struct vec3 point[INSIDE_POINTS], bool discs, double depth_m)
 {
-    static const double share[] = {0.35, 0.5, 0.2, 0.65};
-    for (uint32_t i = 0; i < sizeof share / sizeof *share; i++) {
-        struct vec3 point = vec3_add(middle, vec3_scale(up, share[i] * height_m));
-        double in_a = depth_within(a, point), in_b = depth_within(b, point);
-        if (in_a > 0.0 && in_b > 0.0 && in_a + in_b > depth_m)
+    for (uint32_t i = 0; i < INSIDE_POINTS; i++) {
+        double in_a = depth_within(a, point[i], discs, depth_m);
+        double left_m = maths_max(0.0, depth_m - in_a);
+        if (in_a > 0.0 && depth_within(b, point[i], discs, left_m) > left_m)
             return true;
     }
+    return false;
+}
+
+/* Returns true if the bodies themselves are so deep in each other when the frame begins. A hull may
+ * be narrower than the capsule at its height: the bonnet of a truck, the trails of a howitzer.
+ * Mostly a point over `inside`, which is as deep in both capsules, is inside both bodies, which
+ * proves it sooner than a search. */
+static bool are_deep(const struct begun_body *a, const struct begun_body *b, struct vec3 inside,
+                     struct vec3 up, double height_m, double depth_m)
+{
+    static const double share[INSIDE_POINTS] = {0.35, 0.5, 0.2, 0.65};
+    struct vec3 point[INSIDE_POINTS];
+    for (uint32_t i = 0; i < INSIDE_POINTS; i++)
+        point[i] = vec3_add(inside, vec3_scale(up, share[i] * height_m));
+    if (prove_deep(a, b, point, false, depth_m) || prove_deep(a, b, point, true, depth_m))
+        return true;
     const struct turned_body turned_a = {&a->body, a->began}, turned_b = {&b->body, b->began};
     struct level_gap deepest;
     return level_gap_deepest(&turned_a, &turned_b, depth_m, depth_m, &deepest);
@@ -182,8 +228,11 @@ bool deep_pair_measure(const struct response_context *context, const struct pair
         fabs(vec3_dot(vec3_sub(at_b, at_a), up)) > DEEP * 0.5 * (ka->height_m + kb->height_m))
         return false;
     middle.y = 0.5 * (at_a.y + at_b.y);
+    double half = maths_max(0.0, 0.5 * (gap + radii)); /* of the way between the lines */
+    double off = maths_clamp(0.5 * (a->capsule.radius_m - b->capsule.radius_m), -half, half);
+    struct vec3 inside = vec3_add(middle, vec3_scale(normal, off));
     double enough_m = gap < SURELY * DEEP_PAIR_M ? RESTING_PARTS_M : DEEP_PAIR_M;
-    if (!are_deep(a, b, middle, up, maths_min(ka->height_m, kb->height_m), enough_m))
+    if (!are_deep(a, b, inside, up, maths_min(ka->height_m, kb->height_m), enough_m))
         return false;
     found->count = 1;
     found->gap[0] =

@@ -1,4 +1,4 @@
-/* Which bodies count as deep in each other, by their inner shapes. */
+/* Which bodies count as deep in each other, by their inner shapes. SEED=n draws other crowds. */
 #include "collider/resting/deep_pair.h"
 
 #include "collider/resting/resting.h"
@@ -148,6 +148,66 @@ static void test_bodies_on_a_slope_are_deep(void **state)
     }
 }
 
+#define CROWD 60
+
+/* Draws a crowd of three kinds within 7 m. */
+static void put_crowd(uint64_t *random, double slope)
+{
+    static const char *const kind[] = {"tank", "jeep", "truck"};
+    for (uint32_t i = 0; i < CROWD; i++) {
+        double x = fixture_uniform(random, 0.0, 7.0), z = fixture_uniform(random, 0.0, 7.0);
+        fixture_put(&f,
+                    (struct fixture_entity){.kind = kind[i % 3],
+                                            .at = {25000.0 + x, 100.0 + slope * x, 25000.0 + z},
+                                            .heading_rad = fixture_uniform(random, 0.0, TWO_PI)});
+    }
+}
+
+/* Returns how many pairs of the crowd are deep. The search for the deepest overlap of their hulls
+ * agrees with each of them. */
+static uint32_t deep_in_crowd(const struct response_context *context)
+{
+    struct begun_bodies begun;
+    uint32_t count = 0;
+    assert_int_equal(begun_bodies_init(&begun, context->world), 0);
+    for (uint32_t i = 0; i < CROWD; i++)
+        begun_bodies_list(&begun, i);
+    begun_bodies_find(&begun, context, NULL);
+    for (uint32_t i = 0; i < CROWD * CROWD; i++) {
+        const struct pair pair = {i / CROWD, i % CROWD};
+        const struct begun_body *a = &begun.body[pair.a], *b = &begun.body[pair.b];
+        struct resting_gap found = {.gap = found.few};
+        struct level_gap deepest;
+        if (pair.a >= pair.b || !deep_pair_measure(context, &pair, a, b, &found))
+            continue;
+        const struct turned_body turned_a = {&a->body, a->began}, turned_b = {&b->body, b->began};
+        double surely = found.gap[0].gap_m < -2.0 * DEEP_PAIR_M ? RESTING_PARTS_M : DEEP_PAIR_M;
+        assert_true(level_gap_deepest(&turned_a, &turned_b, surely, surely, &deepest));
+        count++;
+    }
+    begun_bodies_free(&begun);
+    return count;
+}
+
+/* A point inside both bodies proves most pairs deep, without a search of their hulls. */
+static void test_bodies_that_are_proved_deep_are_deep(void **state)
+{
+    static const double slope[] = {0.0, 0.4};
+    uint64_t random = fixture_seed(7);
+    (void)state;
+    for (int n = 0; n < 2; n++) {
+        struct response_context context;
+        fixture_open(&f, "collision = { shape = \"model\"; };");
+        steps_plane(&f, slope[n], 0.0);
+        put_crowd(&random, slope[n]);
+        fixture_continue(&f, 1); /* the ground turns them */
+        steps_respond(&f, &context);
+        assert_true(deep_in_crowd(&context) > CROWD);
+        steps_respond_end(&context);
+        fixture_close(&f);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -157,6 +217,7 @@ int main(void)
         cmocka_unit_test(test_bodies_that_are_apart_are_not_deep),
         cmocka_unit_test(test_ships_are_measured_by_their_hulls),
         cmocka_unit_test(test_bodies_on_a_slope_are_deep),
+        cmocka_unit_test(test_bodies_that_are_proved_deep_are_deep),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
