@@ -119,24 +119,32 @@ static uint32_t local_of(const struct response_context *context, uint32_t *count
  */
 #define SHIFT_M 6e-3
 
-static void shift(struct island_body *body, struct vec3 by, bool bit_by_bit)
+static void limit(struct island_body *body)
 {
-    body->shift = vec3_add(body->shift, by);
     double length = vec3_length(body->shift);
-    if (bit_by_bit && (body->grounded || body->flies) && length > SHIFT_M)
+    if (length > SHIFT_M)
         body->shift = vec3_scale(body->shift, SHIFT_M / length);
 }
 
+static void shift(struct island_body *body, struct vec3 by, bool bit_by_bit)
+{
+    body->shift = vec3_add(body->shift, by);
+    if (bit_by_bit && (body->grounded || body->flies))
+        limit(body);
+}
+
 /* The backup vector (Hahn 1988; thesis row 46): moves overlapping bodies apart along the normal,
- * the lighter by more, until their skins touch. */
+ * the lighter by more, until their skins touch. In free space all bodies are limited together,
+ * afterwards. */
 static void move_apart(const struct response_context *context, const struct island_contact *met,
-                       const struct solver_contact *contact)
+                       const struct solver_contact *contact, bool free)
 {
     struct island *island = context->island;
     const struct collision_params *how = &context->world->params->collision;
     bool hulls = how->shape == SHAPE_MODEL;
     bool parts = !method_discrete((enum method)how->method) && met->body_b != BODY_FIXED &&
                  island->body[met->body_a].grounded && island->body[met->body_b].grounded;
+    bool bit_by_bit = !free && (hulls || parts);
     double depth = met->impact.depth_m;
     if (!(depth > ROUNDING_M))
         return;
@@ -145,19 +153,47 @@ static void move_apart(const struct response_context *context, const struct isla
     double distance = (depth + (hulls ? SKIN_M : 0.0)) / maths_max(slant, 0.5);
     const struct solver_body *a = &island->solve[contact->a], *b = &island->solve[contact->b];
     double la = a->inverse_mass.x, lb = b->inverse_mass.x;
-    shift(&island->body[met->body_a], vec3_scale(n, -distance * la / (la + lb)), hulls || parts);
+    shift(&island->body[met->body_a], vec3_scale(n, -distance * la / (la + lb)), bit_by_bit);
     if (met->body_b != BODY_FIXED)
-        shift(&island->body[met->body_b], vec3_scale(n, distance * lb / (la + lb)), hulls || parts);
+        shift(&island->body[met->body_b], vec3_scale(n, distance * lb / (la + lb)), bit_by_bit);
 }
 
-/* Gives bodies in free space the momentum back that the shift took. */
-static void keep_momentum(struct island *island, uint32_t bodies)
+/* Returns true if nothing but each other acts on the bodies. */
+static bool in_free_space(const struct island *island, uint32_t bodies)
 {
-    bool shifts = false;
     for (uint32_t i = 0; i < bodies; i++) {
         if (island->solve_of[i] == BODY_FIXED || island->body[island->solve_of[i]].grounded)
-            return;
-        island->shift[i] = island->body[island->solve_of[i]].shift;
+            return false;
+    }
+    return true;
+}
+
+/* Returns the share of their shifts that bodies in free space get: one for all, so that their
+ * centre of mass stays where it is. Models part bit by bit if one of them flies. */
+static double share_of_shifts(const struct response_context *context, uint32_t bodies)
+{
+    const struct island *island = context->island;
+    double share = 1.0;
+    for (uint32_t i = 0; i < bodies; i++) {
+        const struct island_body *body = &island->body[island->solve_of[i]];
+        double length = vec3_length(body->shift);
+        if (context->world->params->collision.shape == SHAPE_MODEL && body->flies &&
+            length > SHIFT_M)
+            share = maths_min(share, SHIFT_M / length);
+    }
+    return share;
+}
+
+/* Shifts bodies in free space, and gives them the momentum back that the shift took. */
+static void keep_momentum(const struct response_context *context, uint32_t bodies)
+{
+    struct island *island = context->island;
+    double share = share_of_shifts(context, bodies);
+    bool shifts = false;
+    for (uint32_t i = 0; i < bodies; i++) {
+        struct island_body *body = &island->body[island->solve_of[i]];
+        body->shift = vec3_scale(body->shift, share);
+        island->shift[i] = body->shift;
         shifts |= vec3_dot(island->shift[i], island->shift[i]) > 0.0;
     }
     if (!shifts || overlap_shift_free(island->solve, island->shift, bodies))
@@ -236,15 +272,17 @@ static void solve_group(struct response_context *context, uint32_t first, double
         contact->b = b;
     }
     context->functions->joint(context, first, bodies);
+    bool free = in_free_space(island, bodies);
     contacts = 0;
     for (uint32_t i = first; i != 0; i = island->met[i - 1].next) {
         const struct island_contact *met = &island->met[i - 1];
         const struct solver_contact *contact = &island->contact[contacts++];
-        move_apart(context, met, contact);
+        move_apart(context, met, contact, free);
         if (vec3_dot(contact->impulse, contact->impulse) == 0.0)
             answer_without_impulse(context, met);
     }
-    keep_momentum(island, bodies);
+    if (free)
+        keep_momentum(context, bodies);
     for (uint32_t i = 0; i < bodies; i++) {
         if (island->solve_of[i] == BODY_FIXED)
             continue;

@@ -211,6 +211,41 @@ static void test_row_46_an_impact_shifts_aircraft_a_little(void **state)
     bounce_and_part("jet", 800.0, 18.0, 0.2);
 }
 
+static struct vec3 momentum_of(const struct entities *e, const uint32_t row[2])
+{
+    struct vec3 sum = {0.0, 0.0, 0.0};
+    for (int n = 0; n < 2; n++)
+        sum = vec3_add(sum, vec3_scale(entities_velocity(e, row[n]),
+                                       f.view.world.kinds[e->row[row[n]].kind].mass_kg));
+    return sum;
+}
+
+/* The lighter one is shifted by 6 mm, and the heavier by its share of that. When each was shifted
+ * by up to 6 mm, their centre of mass moved, and so the momentum that turns them about it grew. */
+static void test_row_43_aircraft_are_shifted_about_their_centre_of_mass(void **state)
+{
+    static const char *const kinds[2] = {"helicopter", "jet"};
+    uint32_t row[2];
+    (void)state;
+    fixture_close(&f);
+    fixture_open(&f, "collision = { shape = \"model\"; };");
+    for (int n = 0; n < 2; n++)
+        row[n] = fixture_put(
+            &f, (struct fixture_entity){.kind = kinds[n],
+                                        .at = {25000.0 + 18.0 * n, HIGH_M, 25000.0 + 1.0 * n},
+                                        .velocity = {n == 0 ? 3.0 : -3.0}});
+    fixture_run(&f, 1);
+    struct entities e = steps_rows(&f);
+    while (steps_gap(&f, &e, row[0], row[1]) > 0.0)
+        e.row[row[1]].x -= 0.1;
+    fixture_forget_copies(&f);
+    struct vec3 before = momentum_of(&e, row);
+    fixture_run(&f, 1);
+    e = steps_rows(&f);
+    assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 1);
+    assert_true(vec3_length(vec3_sub(momentum_of(&e, row), before)) < 1e-9 * vec3_length(before));
+}
+
 /* A truck that turns on the spot sweeps its corners into the body beside it. */
 static void test_a_vehicle_turning_in_place_meets_its_neighbour(void **state)
 {
@@ -342,6 +377,7 @@ int main(void)
         TEST(test_row_36_a_body_hit_twice_in_a_frame_responds_twice),
         TEST(test_row_36_bodies_that_part_may_meet_later),
         TEST(test_row_36_a_bush_beside_makes_no_second_collision),
+        TEST(test_row_43_aircraft_are_shifted_about_their_centre_of_mass),
         TEST(test_row_46_overlapping_bodies_part_exactly),
         TEST(test_row_46_an_impact_on_the_ground_shifts_bodies_a_little),
         TEST(test_row_46_an_impact_shifts_aircraft_a_little),
