@@ -139,11 +139,28 @@ static void begin_piloted(const struct response_context *context, struct free_si
         side->steering = steering;
 }
 
+/* Returns the direction in which the ground holds a body. One that only holds its course is moved
+ * along the ground whatever presses on it, up and down as well: it moves in the plane of that
+ * motion and of the level direction across it. If impulses moved it horizontally only, one that
+ * comes down on a wreck could not be slowed down, and would be thrown aside instead. */
+static struct vec3 up_of(const struct response_context *context, uint32_t row)
+{
+    const struct entities *e = &context->next->entities;
+    struct vec3 along = context->path[row].along;
+    double level2 = along.x * along.x + along.z * along.z;
+    if (e->row[row].behaviour != BEHAVIOUR_HOLD || !(level2 > 0.0) || along.y == 0.0)
+        return (struct vec3){0.0, 1.0, 0.0};
+    double length = sqrt(level2 + along.y * along.y), level = sqrt(level2);
+    double sine = along.y / length;
+    return (struct vec3){-sine * along.x / level, level / length, -sine * along.z / level};
+}
+
 static void hold(const struct response_context *context, uint32_t row, struct free_body *body)
 {
     struct level_body level;
     resting_level_body(context, row, &level);
     body->held = true;
+    body->up = up_of(context, row);
     body->forward = (struct vec3){level.forward_x, 0.0, level.forward_z};
     body->most = (struct free_grip){level.grip_along, level.grip_across, level.grip_turn};
 }

@@ -196,6 +196,8 @@ static bool move_held(struct response_context *context, const struct free_side *
     ground_placement_put(context, row, clamped(context->world, at),
                          maths_wrap_turn(e->row[row].heading - turn * dt_s));
     table_set_vx(&context->writer, row, e->row[row].vx + change.x);
+    if (change.y != 0.0)
+        table_set_vy(&context->writer, row, e->row[row].vy + change.y);
     table_set_vz(&context->writer, row, e->row[row].vz + change.z);
     table_set_spin_y(&context->writer, row, e->row[row].spin_y + turn);
     return true;

@@ -19,13 +19,17 @@ static struct vec3 slip_of(const struct free_motion *a, const struct free_motion
     return vec3_sub(at_b, at_a);
 }
 
+/* Returns the part of a direction in which a body can move. */
+static struct vec3 free_part(const struct free_body *body, struct vec3 axis)
+{
+    return body->held ? vec3_sub(axis, vec3_scale(body->up, vec3_dot(axis, body->up))) : axis;
+}
+
 /* Gives one side an impulse of this size along an axis. */
 static void push_side(const struct free_body *body, struct free_motion *motion, struct vec3 axis,
                       struct vec3 twist, double impulse_ns)
 {
-    struct vec3 change = vec3_scale(axis, impulse_ns * body->inverse_mass);
-    if (body->held)
-        change.y = 0.0;
+    struct vec3 change = vec3_scale(free_part(body, axis), impulse_ns * body->inverse_mass);
     motion->velocity = vec3_add(motion->velocity, change);
     motion->spin = vec3_add(motion->spin, vec3_scale(twist, impulse_ns));
 }
@@ -50,7 +54,8 @@ static double mobility(const struct free_body *body, struct vec3 arm, struct vec
                        struct vec3 *twist)
 {
     struct vec3 lever = vec3_cross(arm, axis);
-    double level = body->held ? axis.x * axis.x + axis.z * axis.z : 1.0;
+    struct vec3 part = free_part(body, axis);
+    double level = body->held ? vec3_dot(part, part) : 1.0;
     *twist = rotation_apply(&body->inverse_inertia, lever);
     return body->inverse_mass * level + vec3_dot(lever, *twist);
 }

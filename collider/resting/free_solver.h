@@ -30,9 +30,10 @@ struct free_body {
     double inverse_mass; /* [1/kg]; 0: fixed */
     struct mat3
         inverse_inertia;       /* [1/(kg m2)] world axes; of a held body about the vertical only */
-    bool held;                 /* impulses move it horizontally only */
+    bool held;                 /* impulses move it along the ground only */
     struct free_motion moved;  /* in: without the contacts; out: with them */
     struct free_motion pushed; /* out: what parts overlapping bodies, in addition */
+    struct vec3 up;            /* unit: across the ground along which a held body moves */
     struct vec3 forward;       /* unit, horizontal: the heading of a held body */
     struct free_grip most;     /* of a held body, in this frame */
     struct free_motion wanted; /* the solver's own: moved as it was given */

@@ -93,6 +93,32 @@ static void test_new_craters_lift_what_is_over_them(void **state)
     assert_int_equal(bad, 0);
 }
 
+/* A carrier that holds its course shoves a jeep through one trench into a crater in another one. It
+ * came down on the jeep's wreck, and was thrown out at 40 m/s. */
+static void test_a_carrier_wedged_in_a_crater_gains_no_energy(void **state)
+{
+    (void)state;
+    fixture_open(&f,
+                 "world = { capacity = 64; seed = 35; };\n"
+                 "terrain = { source = \"flat\"; height_m = 50.0; };\n"
+                 "collision = { shape = \"model\"; };\n"
+                 "objects = { source = \"none\"; };\n"
+                 "earthworks = ( { shape = \"trench\"; at = [24065, 25010]; heading_deg = 0;"
+                 " length_m = 30; edge_m = 1; width_m = 6; depth_m = 1.5; },\n"
+                 "{ shape = \"trench\"; at = [24067, 24810]; heading_deg = 30; length_m = 30;"
+                 " edge_m = 1; width_m = 6; depth_m = 1.5; } );\n"
+                 "fires = ( { at_s = 0.2; munition = \"artillery\"; point = [24070.9, 25000]; },\n"
+                 "{ at_s = 0.6; munition = \"bomb\"; point = [24072.6, 24800]; } );\n"
+                 "vehicles = ( { kind = \"carrier\"; at = [24070, 25060]; heading_deg = 0;"
+                 " speed_mps = 16; behaviour = \"hold\"; },\n"
+                 "{ kind = \"jeep\"; at = [24070, 24860]; heading_deg = 357; speed_mps = 1;"
+                 " behaviour = \"hold\"; } );\n");
+    judged_continue(&f, &check, 1200);
+    assert_int_equal(count_bad(), 0);
+    physics_check_free(&check);
+    fixture_close(&f);
+}
+
 /* Pairs of vehicles drive into each other in craters, each pair in one of its own. */
 static void test_figure_8_leaves_vehicles_on_the_ground(void **state)
 {
@@ -124,6 +150,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_new_craters_lift_what_is_over_them),
+        cmocka_unit_test(test_a_carrier_wedged_in_a_crater_gains_no_energy),
         cmocka_unit_test(test_figure_8_leaves_vehicles_on_the_ground),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -90,6 +90,7 @@ static void test_a_held_body_bears_the_load(void **state)
     struct free_contact contact[4];
     (void)state;
     body[1].held = true;
+    body[1].up = (struct vec3){0.0, 1.0, 0.0};
     body[1].forward = (struct vec3){1.0, 0.0, 0.0};
     body[1].most = (struct free_grip){1e4, 1e4, 1e4};
     body[1].inverse_inertia = (struct mat3){{{0, 0, 0}, {0, 1e-3, 0}, {0, 0, 0}}};
@@ -98,6 +99,26 @@ static void test_a_held_body_bears_the_load(void **state)
     assert_true(vec3_length(body[1].moved.velocity) == 0.0);
     assert_true(body[1].moved.spin.y == 0.0);
     assert_true(fabs(body[2].moved.velocity.y) < CLOSE_MPS);
+}
+
+/* It goes down a slope of 45 degrees onto what stands fast. If it could be slowed down horizontally
+ * only, it would be thrown aside, because nothing takes the vertical part of its motion. */
+static void test_a_held_body_is_slowed_along_the_ground(void **state)
+{
+    struct free_body body[2] = {{.inverse_mass = 0.0}, body_of(2.0, -2.0)};
+    struct free_contact contact = {.a = 0,
+                                   .b = 1,
+                                   .normal = {0.28, 0.96, 0.0},
+                                   .arm_a = {0.0, 0.0, 0.0},
+                                   .arm_b = {0.0, 0.0, 0.0}};
+    (void)state;
+    body[1].held = true;
+    body[1].up = (struct vec3){sqrt(0.5), sqrt(0.5), 0.0};
+    body[1].inverse_inertia = (struct mat3){{{0, 0, 0}, {0, 1e-3, 0}, {0, 0, 0}}};
+    free_solver_run(body, 2, &contact, 1);
+    assert_true(free_solver_closing(body, &contact) < CLOSE_MPS);
+    assert_true(fabs(vec3_dot(body[1].moved.velocity, body[1].up)) < CLOSE_MPS);
+    assert_true(vec3_length(body[1].moved.velocity) < CLOSE_MPS);
 }
 
 /* A gap may be closed within the frame, and no faster. */
@@ -134,6 +155,7 @@ int main(void)
         cmocka_unit_test(test_friction_stays_within_its_cone),
         cmocka_unit_test(test_momentum_is_conserved),
         cmocka_unit_test(test_a_held_body_bears_the_load),
+        cmocka_unit_test(test_a_held_body_is_slowed_along_the_ground),
         cmocka_unit_test(test_a_gap_leaves_room),
         cmocka_unit_test(test_an_overlap_is_pushed_apart_without_energy),
     };
