@@ -11,7 +11,6 @@
 #include "world/world.h"
 
 #include <errno.h>
-#include <sys/mman.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
