@@ -26,6 +26,7 @@
 #define ROWS_A_PIECE    16u
 #define MOST_ROWS_PAIRS 8u /* up to so many pairs for each row that is looked at, most rows are */
 #define SENT_BACK_HALF  3u /* so often a row goes back by half, the next time all the way */
+#define SENT_BACK_TURN  4u /* then a vehicle that drives goes back by its turn alone */
 #define SENT_BACK_MOST  5u /* aircraft that go together go back among themselves before */
 
 /* A body at rest. */
@@ -356,11 +357,13 @@ static void send_back(struct end_guard *guard, struct response_context *context,
         return;
     }
     struct vec3 drift = guard->drift[row];
-    if (keep == 0.0 && (vec3_dot(drift, drift) == 0.0 || guard->sent_back[row] == SENT_BACK_MOST)) {
+    bool drifts = vec3_dot(drift, drift) > 0.0;
+    if (guard->sent_back[row] == SENT_BACK_TURN && !drifts && held_rest_turn_back(context, row))
+        return;
+    if (keep == 0.0 && (!drifts || guard->sent_back[row] == SENT_BACK_MOST)) {
         drift = (struct vec3){0.0, 0.0, 0.0};
         guard->sent_back[row] = SENT_BACK_MOST;
     }
-    struct vec3 from = entities_position(w, row), to = entities_position(e, row);
     held_rest_keep_springs(context, row);
     if (e->row[row].state == ENTITY_WRECK || e->row[row].flags & ENTITY_FLAG_CHASSIS ||
         contact_groups_is_piloted(context, row)) {
@@ -368,7 +371,8 @@ static void send_back(struct end_guard *guard, struct response_context *context,
         return;
     }
     double turn = maths_wrap_half(e->row[row].heading - w->row[row].heading);
-    ground_placement_put(context, row, vec3_lerp(from, to, keep),
+    ground_placement_put(context, row,
+                         vec3_lerp(entities_position(w, row), entities_position(e, row), keep),
                          maths_wrap_turn(w->row[row].heading + turn * keep));
     slow_down(context, row, keep);
 }
@@ -639,8 +643,7 @@ static void look_at_drifting(struct end_guard *guard, const struct response_cont
 
 /* A body that has made way keeps so much of it along the ground [m]. Without any room a crowd on
  * uneven ground locks: bodies that lean differently where they go are in each other by a
- * millimetre, and go back.
- */
+ * millimetre, and go back. */
 #define ROOM_M     0.009
 #define DRAWN_MOST 4  /* passes over all that have */
 #define HALVINGS   4u /* of the part of its way in which it gets deep again */
@@ -663,8 +666,7 @@ static bool any_deeper(struct end_guard *guard, const struct response_context *c
     return any;
 }
 
-/* Returns how often the guard's rounds have sent a row back, which may have been drawn back since.
- */
+/* Returns how often the rounds have sent a row back, which may have been drawn back since. */
 static uint32_t times_back(const struct end_guard *guard, uint32_t row)
 {
     return guard->drawn[row] ? guard->drawn[row] - 1u : guard->sent_back[row];

@@ -1,7 +1,7 @@
 /* The guard at the end of a frame: no two bodies that the ground holds, or that rest on others, end
  * it deeper in each other than they began it. Bodies that would are sent back by half of their
- * motion, three times, and at last to where they stood when the frame began. Pure; one caller, and
- * its workers. */
+ * motion, three times, then a vehicle that drives by its turn alone, and at last to where they
+ * stood when the frame began. Pure; one caller, and its workers. */
 #ifndef JOLON_COLLIDER_RESTING_END_GUARD_H
 #define JOLON_COLLIDER_RESTING_END_GUARD_H
 

@@ -79,14 +79,31 @@ void held_rest_keep_springs(struct response_context *context, uint32_t row)
         table_set_flags(&context->writer, row, e->row[row].flags | flag);
 }
 
+static void set_turn(struct response_context *context, uint32_t row)
+{
+    const struct entities *w = &context->motion->before;
+    table_set_heading(&context->writer, row, w->row[row].heading);
+    table_set_pitch(&context->writer, row, w->row[row].pitch);
+    table_set_roll(&context->writer, row, w->row[row].roll);
+}
+
+bool held_rest_turn_back(struct response_context *context, uint32_t row)
+{
+    const struct entities *e = &context->next->entities;
+    if (e->row[row].state != ENTITY_ACTIVE || !(e->row[row].flags & ENTITY_FLAG_CHASSIS) ||
+        e->row[row].throttle == 0.0F)
+        return false;
+    set_turn(context, row);
+    table_set_spin(&context->writer, row, (struct vec3){0.0, 0.0, 0.0});
+    return true;
+}
+
 void held_rest_put_back(struct response_context *context, uint32_t row)
 {
     const struct entities *w = &context->motion->before;
     held_rest_keep_springs(context, row);
     table_set_position(&context->writer, row, entities_position(w, row));
-    table_set_heading(&context->writer, row, w->row[row].heading);
-    table_set_pitch(&context->writer, row, w->row[row].pitch);
-    table_set_roll(&context->writer, row, w->row[row].roll);
+    set_turn(context, row);
     table_set_velocity(&context->writer, row, entities_velocity(w, row));
     table_set_spin(&context->writer, row,
                    (struct vec3){w->row[row].spin_x, w->row[row].spin_y, w->row[row].spin_z});

@@ -15,6 +15,11 @@ bool held_rest_ended(const struct response_context *context, uint32_t row);
  * mover has moved it by no more than springs do: no engine drives it, and it does not fall. */
 bool held_rest_stays(const struct response_context *context, uint32_t row);
 
+/* Turns a vehicle on its springs whose engine drives it back to how it began the frame, and leaves
+ * it where it has come. Springs that turn it into another body would else hold it there, however
+ * its engine parts the two. Returns false for any other row. */
+bool held_rest_turn_back(struct response_context *context, uint32_t row);
+
 /* Puts a row back to where it began the frame. Nothing of the frame must have been solved yet. */
 void held_rest_put_back(struct response_context *context, uint32_t row);
 

@@ -217,6 +217,49 @@ static void test_a_wreck_goes_back_in_its_whole_pose(void **state)
     assert_true(e->row[0].vy <= 0.3 && e->row[0].spin_z <= 0.45);
 }
 
+/* A tank on its springs leaves its neighbour and turns into it, by more than an eighth of it
+ * allows.
+ */
+static void leave_and_turn(double throttle)
+{
+    pair(0, 1);
+    next()->row[0].flags |= ENTITY_FLAG_CHASSIS;
+    next()->row[0].throttle = (float)throttle;
+    next()->row[0].heading = 0.4;
+    next()->row[0].spin_y = 24.0;
+    move(0, -0.08);
+    run(1, (uint32_t[]){0});
+    assert_true(next()->row[0].heading == committed()->row[0].heading);
+    assert_true(next()->row[0].spin_y == 0.0);
+}
+
+static void test_a_vehicle_that_drives_goes_back_by_its_turn_alone(void **state)
+{
+    (void)state;
+    leave_and_turn(-0.5);
+    assert_true(fabs(next()->row[0].x - WEST_M + 0.01) < 1e-9);
+    assert_true(fabs(next()->row[0].vx + 7.5 * 0.08) < 1e-9);
+}
+
+static void test_a_vehicle_that_does_not_drive_goes_back_all_the_way(void **state)
+{
+    (void)state;
+    leave_and_turn(0.0);
+    assert_true(next()->row[0].x == WEST_M && next()->row[0].vx == 0.0);
+}
+
+/* One that drives into its neighbour is put back, as any other. */
+static void test_a_vehicle_that_drives_ends_no_deeper(void **state)
+{
+    (void)state;
+    pair(0, 1);
+    next()->row[0].flags |= ENTITY_FLAG_CHASSIS;
+    next()->row[0].throttle = 1.0F;
+    move(0, 1.5);
+    run(1, (uint32_t[]){0});
+    assert_true(next()->row[0].x == WEST_M && next()->row[0].vx == 0.0);
+}
+
 /* The third tank follows the second, which has to go back; the fourth is out of it. */
 static void test_a_body_that_went_back_can_send_back_the_next(void **state)
 {
@@ -411,6 +454,9 @@ int main(void)
         TEST(test_bodies_of_resting_pairs_are_looked_at),
         TEST(test_bodies_that_have_met_are_looked_at),
         TEST(test_a_wreck_goes_back_in_its_whole_pose),
+        TEST(test_a_vehicle_that_drives_goes_back_by_its_turn_alone),
+        TEST(test_a_vehicle_that_does_not_drive_goes_back_all_the_way),
+        TEST(test_a_vehicle_that_drives_ends_no_deeper),
         TEST(test_a_body_that_went_back_can_send_back_the_next),
         TEST(test_no_vehicle_ends_deeper_in_a_bank),
         TEST(test_a_vehicle_may_leave_a_bank),
