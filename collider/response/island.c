@@ -119,18 +119,12 @@ static uint32_t local_of(const struct response_context *context, uint32_t *count
  */
 #define SHIFT_M 6e-3
 
-static void limit(struct island_body *body)
-{
-    double length = vec3_length(body->shift);
-    if (length > SHIFT_M)
-        body->shift = vec3_scale(body->shift, SHIFT_M / length);
-}
-
 static void shift(struct island_body *body, struct vec3 by, bool bit_by_bit)
 {
     body->shift = vec3_add(body->shift, by);
-    if (bit_by_bit && (body->grounded || body->flies))
-        limit(body);
+    double length = vec3_length(body->shift);
+    if (bit_by_bit && (body->grounded || body->flies) && length > SHIFT_M)
+        body->shift = vec3_scale(body->shift, SHIFT_M / length);
 }
 
 /* The backup vector (Hahn 1988; thesis row 46): moves overlapping bodies apart along the normal,

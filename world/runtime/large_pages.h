@@ -25,8 +25,8 @@ void large_pages_advise(void *memory, size_t bytes);
 
 /* Moves memory that is there, private or shared, into large pages, and takes it if it is not there.
  * Since Linux 6.1; no setting of the administrator forbids it. The large pages that the memory
- * touches are taken as far as they lie in the same mapping. Takes about 0.2 ms for one of 2 MB;
- * nothing where it is large already. */
+ * touches are taken as far as they lie in the same mapping. Takes about 2 ms for one of 2 MB, and
+ * a microsecond where it is large already. */
 void large_pages_collapse(const void *memory, size_t bytes);
 
 #endif

@@ -47,6 +47,18 @@ static int kernel_can(void)
     return can;
 }
 
+/* Returns new shared memory, or skips the test where the kernel cannot. */
+static void *map_or_skip(size_t bytes)
+{
+    if (!kernel_can()) {
+        print_message("this kernel has no large pages of shared memory\n");
+        skip();
+    }
+    void *memory = large_pages_map(bytes, PROT_READ | PROT_WRITE, -1);
+    assert_true(memory != MAP_FAILED);
+    return memory;
+}
+
 static void test_a_mapping_begins_where_a_large_page_does(void **state)
 {
     const size_t sizes[] = {1, 4096, 5000, LARGE, 3 * LARGE + 4096};
@@ -86,12 +98,7 @@ static void test_shared_memory_moves_into_large_pages(void **state)
 {
     const size_t bytes = 4 * LARGE;
     (void)state;
-    if (!kernel_can()) {
-        print_message("this kernel has no large pages of shared memory\n");
-        skip();
-    }
-    uint32_t *memory = large_pages_map(bytes, PROT_READ | PROT_WRITE, -1);
-    assert_true(memory != MAP_FAILED);
+    uint32_t *memory = map_or_skip(bytes);
     for (size_t i = 0; i < bytes / sizeof *memory; i++)
         memory[i] = (uint32_t)i * 2654435761u;
     assert_int_equal(counted(memory, "ShmemPmdMapped"), 0);
@@ -109,12 +116,7 @@ static void test_other_parts_move_where_one_is_mapped_apart(void **state)
 {
     const size_t bytes = 4 * LARGE;
     (void)state;
-    if (!kernel_can()) {
-        print_message("this kernel has no large pages of shared memory\n");
-        skip();
-    }
-    char *memory = large_pages_map(bytes, PROT_READ | PROT_WRITE, -1);
-    assert_true(memory != MAP_FAILED);
+    char *memory = map_or_skip(bytes);
     memset(memory, 3, bytes);
     assert_int_equal(mprotect(memory, LARGE / 2, PROT_READ), 0);
     large_pages_collapse(memory, bytes);
