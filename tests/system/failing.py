@@ -58,6 +58,25 @@ def restore():
     os.chmod(f"{names}/{name}.lock", 0o600)
 
 
+def finished(process):
+    """Waits for the end of a process. Returns its output, or None and how it stands when it hangs: in 600 looks,
+    a tenth of a second apart, it sleeps, or it has not ended after 6,000. Looks are counted instead of seconds
+    because the machine can stop for a minute, or have no time for the process."""
+    sleeps = 0
+    for _ in range(6000):
+        try:
+            return process.communicate(timeout=0.1), ""
+        except subprocess.TimeoutExpired:
+            with open(f"/proc/{process.pid}/stat") as stat:
+                fields = stat.read().rsplit(")", 1)[1].split()
+            sleeps += fields[0] == "S"
+            if sleeps >= 600:
+                break
+    process.kill()
+    process.communicate()
+    return None, f"state {fields[0]}, slept in {sleeps} looks, {fields[11]} and {fields[12]} ticks"
+
+
 class Case:
     """A program to test: `before` prepares each run, `peer` runs beside it, `finish` waits and stops it."""
 
@@ -75,17 +94,15 @@ class Case:
         try:
             if self.finish:
                 self.finish(child)
-            out, err = child.communicate(timeout=60)
-        except subprocess.TimeoutExpired:
-            child.kill()
-            child.communicate()
-            return HANGS, b"", []
+            output, stands = finished(child)
         finally:
             for process in (child, peer):
                 if process and process.poll() is None:
                     process.kill()
                     process.wait()
-        return child.returncode, out, said(err)
+        if not output:
+            return HANGS, b"", [stands]
+        return child.returncode, output[0], said(output[1])
 
 
 def judge(case, fail, right):
