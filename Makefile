@@ -196,7 +196,7 @@ DDS_LIBS      = $(call pc,libs,CycloneDDS)
 RENDER_LIBS   = $(call pc,libs,epoxy libdeflate libjpeg freetype2)
 HTTP_LIBS     = $(call pc,libs,libmicrohttpd)
 # libconfig and libseccomp statically, with their allocations led through world/runtime/checked_alloc.c.
-CONFIG_LIBS   = -Wl,-Bstatic $(call pc,libs,libconfig) -Wl,-Bdynamic $(call pc,libs,assimp) -lstdc++
+CONFIG_LIBS   = -Wl,-Bstatic $(call pc,libs,libconfig) -Wl,-Bdynamic
 JSON_LIBS     = $(call pc,libs,libcjson)
 CURSES_LIBS   = $(call pc,libs,ncursesw)
 ARCHIVE_LIBS  = $(call pc,libs,libzstd)
@@ -366,7 +366,7 @@ $(BUILD)/tests/crash/test_crash: $(call objects,$(call sources,tests/crash))
 $(GOLDEN_TESTS): $(call libraries,bench)
 $(BUILD)/tests/property/bench/test_heap_run: $(call libraries,physics)
 $(BUILD)/tests/%: $(OBJ)/tests/%.o $(call libraries,$(COMMON))
-	$(call link,$(call WRAP,aiImportFileEx aiReleaseImport) $(TEST_LIBS)) # tests/support/kept_models.c
+	$(call link,$(TEST_LIBS))
 
 # Preloaded by system tests; it stands in the way of functions that the headers say much about.
 FAILING := $(BUILD)/tests/faults/failing.so
@@ -412,7 +412,6 @@ crash: | $(STAMP) $(TEST_STAMP)
 # tree for them.
 FUZZERS := $(patsubst tests/fuzz/%.c,$(BIN)/%,$(filter tests/fuzz/fuzz_%,$(FUZZ_SRC)))
 fuzzers: $(FUZZERS)
-$(BIN)/fuzz_scenario $(BIN)/fuzz_kind: FUZZ_LINK = $(call WRAP,aiImportFileEx aiReleaseImport)
 $(BIN)/fuzz_ctl $(BIN)/fuzz_log: FUZZ_LINK = $(call WRAP,exit)
 $(BIN)/fuzz_ctl: $(call libraries,ctl)
 $(BIN)/fuzz_command: $(call libraries,intake)

@@ -12,11 +12,9 @@
 #include <stdint.h>
 #include <xxhash.h>
 
-#define MODELS_BYTES_MAX    (16u * 1024u * 1024u) /* of one file */
-#define MODELS_VERTEX_MAX   OBJ_FILE_VERTICES_MAX /* of one model */
-#define MODELS_TRIANGLE_MAX OBJ_FILE_TRIANGLES_MAX
-#define MODELS_EXTENT_MAX   ((float)OBJ_FILE_EXTENT_MAX) /* [m] of a coordinate */
-#define MODELS_FILE_MAX     (2 * KIND_COUNT_MAX)
+#define MODELS_BYTES_MAX  (16u * 1024u * 1024u) /* of one file */
+#define MODELS_VERTEX_MAX OBJ_FILE_VERTICES_MAX /* of one model */
+#define MODELS_FILE_MAX   (2 * KIND_COUNT_MAX)
 
 struct models {
     struct scenario *scenario; /* whose tables grow */

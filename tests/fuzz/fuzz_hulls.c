@@ -1,5 +1,5 @@
 /* Hulls of arbitrary triangles: corners on a few planes, in a line, in one point, a micrometre or a
- * kilometre apart. These are meshes that assimp could return, without the file. */
+ * kilometre apart. These are meshes as a file could have them, without the file. */
 #include "tests/fuzz/support.h"
 
 #include "config/mesh/hulls.h"

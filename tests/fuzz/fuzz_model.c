@@ -1,5 +1,5 @@
 /* Models: an OBJ file and, after a line "%%", the file of materials k.mtl beside it. Without that
- * line there is only box.mtl. Tests our grammar, assimp, our tables and hulls. */
+ * line there is only box.mtl. Tests the reader, the tables and the hulls. */
 #include "tests/fuzz/support.h"
 
 #include "config/mesh/models.h"

@@ -388,7 +388,7 @@ static const struct {
     {TOP "o wheel_x\n" TRIANGLE "usemtl red\nf 1 2 3\n", "k.obj: object wheel_x: unknown part; "},
     {TOP "o _1\n" TRIANGLE "usemtl red\nf 1 2 3\n", "k.obj: object _1: unknown part; "},
     {TOP "o solid\n" TRIANGLE "usemtl red\nf 1 2 3\n", "k.obj: has no triangles"},
-    {TOP TRIANGLE "usemtl red\nf 1 2 3\n", "k.obj: object defaultobject: unknown part; "},
+    {TOP TRIANGLE "usemtl red\nf 1 2 3\n", "k.obj:6: f: is of no object; right would be: o NAME "},
     {TOP "o body\nv 0 0 0\nv 1001 0 0\n", "k.obj:4: v = 1001: out of range; allowed: -1000..1000"},
     {TOP "v nan 0 0\n", "k.obj:2: v = nan: is not a number; "},
     {TOP "v .5 0 0\n", "k.obj:2: v = .5: is not a number; "},
@@ -490,6 +490,25 @@ static void test_whole_grammar_is_accepted(void **state)
     scenario_free(&s);
 }
 
+/* An object may be begun again: its faces move together. */
+static void test_faces_of_a_name_are_one_object(void **state)
+{
+    struct scenario s;
+
+    (void)state;
+    put_model("k.obj",
+              TOP "o wheel_1\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nusemtl red\nf 1 2 3\n"
+                  "o body\nf 1 2 3\nf 1 3 2\nf 1 4 2\no wheel_1\nf 3 2 1\no wheel_2\nf 3 2 1\n");
+    if (loader_scenario(&s, quick_config.folder, quick_config.scenario_path, NULL, 0, &error) != 0)
+        fail_msg("%s", error.text);
+    assert_int_equal(s.triangle_count, 6);
+    assert_int_equal(s.triangles[0].joint, s.triangles[1].joint);
+    assert_int_equal(s.triangles[1].part, PART_WHEEL);
+    assert_int_equal(s.triangles[2].part, PART_BODY);
+    assert_int_not_equal(s.triangles[5].joint, s.triangles[0].joint);
+    scenario_free(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest shipped_tests[] = {
@@ -505,6 +524,7 @@ int main(void)
         cmocka_unit_test(test_refusals),
         cmocka_unit_test(test_square_is_two_triangles),
         cmocka_unit_test(test_whole_grammar_is_accepted),
+        cmocka_unit_test(test_faces_of_a_name_are_one_object),
     };
 
     return cmocka_run_group_tests(shipped_tests, load_shipped, free_shipped) +
