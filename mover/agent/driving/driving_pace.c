@@ -1,6 +1,7 @@
-/* Slopes, bends and jolts, each as a speed at a place ahead. */
+/* Slopes, faces of earthworks, bends and jolts, each as a speed at a place ahead. */
 #include "mover/agent/driving/driving_pace.h"
 
+#include "mover/agent/driving/earthwork_obstacles.h"
 #include "mover/motion/drivetrain.h"
 #include "mover/motion/kinematics.h"
 #include "world/state.h"
@@ -14,6 +15,8 @@
 #define SIDE_M       110.0 /* [m] radius that it must be able to steer on a side slope */
 #define SIGHT_M      40.0  /* [m] within which it can stop on a way down */
 #define LEAST_MARGIN 0.3   /* [m/s2] that counts as left on the steepest ground */
+#define RISE_MPS     4.0   /* up the face of an earthwork: it needs some way to get up */
+#define FALL_MPS     2.0   /* and down: faster ones leave the ground at its edge */
 #define BENDS        6     /* looked at */
 #define BEND_SHARE   0.6   /* of the greatest lateral acceleration */
 #define BEND_LEAST_M 4.0   /* half of a leg of its route counts as this at least */
@@ -90,6 +93,28 @@ static void heed_ground(const struct step_context *context, uint32_t i, struct p
     }
 }
 
+/* --- earthworks --------------------------------------------------------------------------------*/
+
+static void heed_face(void *context, double far_m, double slope)
+{
+    if (fabs(slope) > GENTLE)
+        limit(context, (slope > 0.0 ? RISE_MPS : FALL_MPS) / fabs(slope), far_m);
+}
+
+static void heed_works(const struct step_context *context, uint32_t i, struct pace *pace)
+{
+    const struct earthworks *works = &context->world->terrain.earthworks;
+    const struct earthwork_way way = {.x = context->m->row[i].x,
+                                      .z = context->m->row[i].z,
+                                      .ux = pace->sine,
+                                      .uz = -pace->cosine,
+                                      .length_m = pace->way_m,
+                                      .beside_m = 0.5 * pace->kind->width_m,
+                                      .ahead_m = 0.5 * pace->kind->length_m};
+    if (works->count > 0)
+        earthwork_obstacles_faces(works, pace->kind, &way, heed_face, pace);
+}
+
 /* --- bends -------------------------------------------------------------------------------------*/
 
 /* Two legs of a route that meet in a bend [m, on the map]. */
@@ -162,6 +187,7 @@ double driving_pace(const struct step_context *context, uint32_t i, double headi
 {
     struct pace pace = begin(context, i, heading_rad);
     heed_ground(context, i, &pace);
+    heed_works(context, i, &pace);
     heed_route(context, i, &pace);
     heed_jolts(context, i, &pace);
     return pace.most_mps;

@@ -77,11 +77,25 @@ static bool leads_over(const struct earthwork *work, const struct earthwork_way 
     return narrow.from_m < narrow.to_m && narrow.to_m > 0.0;
 }
 
-double earthwork_obstacles_free(const struct earthworks *works, const struct kind *kind,
-                                const struct earthwork_way *way)
+/* --- works along a way -------------------------------------------------------------------------*/
+
+/* What is asked of each work that a way comes near. */
+struct question {
+    const struct kind *kind;
+    const struct earthwork_way *way;
+    double far_m;  /* that the vehicle's nose comes along the way */
+    double free_m; /* the answer of free_of() */
+    earthwork_face *face;
+    void *context; /* of the face */
+};
+
+typedef void question_ask(struct question *question, const struct earthwork *work);
+
+static void ask_all(const struct earthworks *works, struct question *question, question_ask *ask)
 {
-    double free_m = way->length_m, far = way->length_m + way->ahead_m;
-    double end_x = way->x + far * way->ux, end_z = way->z + far * way->uz, wide = way->beside_m;
+    const struct earthwork_way *way = question->way;
+    double end_x = way->x + question->far_m * way->ux, end_z = way->z + question->far_m * way->uz;
+    double wide = way->beside_m;
     struct gridsquare_box box = gridsquare_box_of(
         &works->squares, maths_min(way->x, end_x) - wide, maths_min(way->z, end_z) - wide,
         maths_max(way->x, end_x) + wide, maths_max(way->z, end_z) + wide);
@@ -90,14 +104,61 @@ double earthwork_obstacles_free(const struct earthworks *works, const struct kin
             uint32_t count;
             const uint32_t *items =
                 earthwork_in_square(works, gridsquare_index(&works->squares, column, row), &count);
-            for (uint32_t n = 0; n < count; n++) {
-                const struct earthwork *work = &works->works[items[n]];
-                struct cut cut;
-                if (leads_over(work, way, &cut) && cut.from_m < far &&
-                    !crosses(work, kind, &cut, way->beside_m))
-                    free_m = maths_min(free_m, cut.from_m + way->beside_m - way->ahead_m);
-            }
+            for (uint32_t n = 0; n < count; n++)
+                ask(question, &works->works[items[n]]);
         }
     }
-    return maths_max(free_m, 0.0);
+}
+
+static void free_of(struct question *question, const struct earthwork *work)
+{
+    const struct earthwork_way *way = question->way;
+    struct cut cut;
+    if (leads_over(work, way, &cut) && cut.from_m < question->far_m &&
+        !crosses(work, question->kind, &cut, way->beside_m))
+        question->free_m = maths_min(question->free_m, cut.from_m + way->beside_m - way->ahead_m);
+}
+
+double earthwork_obstacles_free(const struct earthworks *works, const struct kind *kind,
+                                const struct earthwork_way *way)
+{
+    struct question question = {
+        .kind = kind, .way = way, .far_m = way->length_m + way->ahead_m, .free_m = way->length_m};
+    ask_all(works, &question, free_of);
+    return maths_max(question.free_m, 0.0);
+}
+
+/* --- faces -------------------------------------------------------------------------------------*/
+
+/* Tells of a face from one place of the way to another, unless all of the vehicle is past it. */
+static void tell_face(const struct question *question, double from_m, double to_m, double rise_m)
+{
+    double ahead_m = question->way->ahead_m;
+    if (from_m < question->far_m && to_m + ahead_m > 0.0)
+        question->face(question->context, maths_max(from_m - ahead_m, 0.0),
+                       rise_m / (to_m - from_m));
+}
+
+static void faces_of(struct question *question, const struct earthwork *work)
+{
+    const double beside_m = question->way->beside_m, high_m = work->height_m;
+    const struct cut cut = cut_of(work, question->way, beside_m);
+    const double from_m = cut.from_m + beside_m, to_m = cut.to_m - beside_m;
+    if (!(cut.from_m < cut.to_m) || high_m == 0.0 || work->wave_m > 0.0 ||
+        !crosses(work, question->kind, &cut, beside_m) ||
+        (high_m < 0.0 && to_m - from_m <= question->kind->trench_m))
+        return;
+    tell_face(question, from_m, from_m + cut.rise_m, high_m);
+    tell_face(question, to_m - cut.fall_m, to_m, -high_m);
+}
+
+void earthwork_obstacles_faces(const struct earthworks *works, const struct kind *kind,
+                               const struct earthwork_way *way, earthwork_face *face, void *context)
+{
+    struct question question = {.kind = kind,
+                                .way = way,
+                                .far_m = way->length_m + way->ahead_m,
+                                .face = face,
+                                .context = context};
+    ask_all(works, &question, faces_of);
 }

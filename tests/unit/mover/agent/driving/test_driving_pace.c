@@ -1,5 +1,5 @@
-/* How fast crews drive on slopes, in bends and when they are thrown about, and that trucks come
- * down a mountain on their wheels. */
+/* How fast crews drive on slopes, over earthworks, in bends and when they are thrown about, and
+ * that trucks come down a mountain on their wheels. */
 #include "mover/agent/driving/driving_pace.h"
 
 #include "tests/support/steps.h"
@@ -88,6 +88,93 @@ static void test_who_is_thrown_about_brakes(void **state)
     assert_true(fabs(driving_pace(&step, row, HALF_PI) - 12.0) < 1e-9);
 }
 
+/* Opens a world with a work across the way to the east, 60 m from vehicles that start there. */
+static void open_work(const char *work, double hz)
+{
+    char text[400];
+    snprintf(
+        text, sizeof text,
+        "world = { seed = 1; capacity = 64; hz = %.1f; };"
+        "earthworks = ( { at = [25060.0, 25000.0]; heading_deg = 90.0; width_m = 900.0; %s } );",
+        hz, work);
+    fixture_close(&f);
+    fixture_open(&f, text);
+}
+
+/* Returns the pace of a kind with so much of a way left to the work. */
+static double pace_before(const char *kind, double left_m)
+{
+    struct step_context step;
+    struct serial_context context;
+    steps_empty(&f);
+    fixture_threads(&f, 1);
+    uint32_t row =
+        fixture_put(&f, (struct fixture_entity){.kind = kind,
+                                                .at = {25056.0 - left_m, FIXTURE_GROUND_M, 25000.0},
+                                                .velocity = {12.0, 0.0, 0.0}});
+    steps_serial_context(&f, &step, &context);
+    return driving_pace(&step, row, HALF_PI);
+}
+
+static void test_a_face_limits_who_can_cross_it(void **state)
+{
+    static const char step[] = "shape = \"table\"; length_m = 8.0; height_m = 0.85; edge_m = 0.11;";
+    (void)state;
+    open_work(step, HZ);
+    double far_off = pace_before("tank", 30.0), near = pace_before("tank", 5.0);
+    assert_true(far_off > 8.0 && far_off < 9.0 && near == 2.5);
+    assert_true(pace_before("tank", 100.0) == INFINITY);
+    assert_true(pace_before("tank", -20.0) == INFINITY); /* behind it */
+    assert_true(pace_before("jeep", 5.0) == INFINITY);   /* it goes around */
+    open_work("shape = \"trench\"; length_m = 2.4; depth_m = 1.0; edge_m = 0.14;", HZ);
+    assert_true(pace_before("tank", 5.0) == INFINITY); /* it spans it */
+    open_work("shape = \"trench\"; length_m = 8.0; depth_m = 0.4; edge_m = 0.06;", HZ);
+    assert_true(pace_before("tank", 5.0) == 2.5);
+}
+
+/* Sends one vehicle of each kind over the work, side by side. Returns how many are over it and
+ * unhurt after 40 s. */
+static int count_over(const char *const *kinds, int count, double hz)
+{
+    int over = 0;
+    steps_empty(&f);
+    fixture_threads(&f, 1);
+    for (int n = 0; n < count; n++) {
+        const struct vec3 at = {25000.0, FIXTURE_GROUND_M, 24850.0 + 50.0 * n};
+        uint32_t row = fixture_put(&f, (struct fixture_entity){.kind = kinds[n],
+                                                               .at = at,
+                                                               .heading_rad = HALF_PI,
+                                                               .behaviour = BEHAVIOUR_PATROL});
+        struct entities e = steps_rows(&f);
+        e.row[row].order = BEHAVIOUR_PATROL;
+        e.row[row].goal_x = 25400.0;
+        e.row[row].goal_z = at.z;
+    }
+    fixture_run(&f, (uint32_t)(40.0 * hz));
+    for (int n = 0; n < count; n++) {
+        struct entities e = steps_rows(&f);
+        uint32_t row = (uint32_t)n;
+        print_message("%s: x %.1f, damage %d\n", kinds[n], e.row[row].x, e.row[row].damage);
+        over += e.row[row].x > 25100.0 && e.row[row].damage == DAMAGE_NONE;
+    }
+    return over;
+}
+
+/* Agents drove at 10 to 12 m/s into steps that their kinds can climb. Tanks and carriers stood
+ * there with medium damage; what is high for its length turned over at the crest of a hill. */
+static void test_they_get_over_steps_and_hills_unhurt(void **state)
+{
+    static const char *const tracked[] = {"tank", "carrier", "howitzer", "flak"};
+    static const char *const tall[] = {"jeep", "truck", "hamburger", "attack-tomato"};
+    (void)state;
+    for (double hz = 10.0; hz < 100.0; hz += 50.0) {
+        open_work("shape = \"table\"; length_m = 8.0; height_m = 0.85; edge_m = 0.11;", hz);
+        assert_int_equal(count_over(tracked, 4, hz), 4);
+        open_work("shape = \"table\"; length_m = 60.0; height_m = 6.0; grade_percent = 40.0;", hz);
+        assert_int_equal(count_over(tall, 4, hz), 4);
+    }
+}
+
 /* A truck drives to the east and then on to another point. Returns its lowest speed within 40 m of
  * the corner. */
 static double slowest_in_bend(const char *corner_to)
@@ -166,6 +253,8 @@ int main(void)
         TEST(test_level_ground_limits_nobody),
         TEST(test_a_side_slope_limits_the_tall_more),
         TEST(test_a_way_down_limits_by_the_brakes),
+        TEST(test_a_face_limits_who_can_cross_it),
+        TEST(test_they_get_over_steps_and_hills_unhurt),
         TEST(test_who_is_thrown_about_brakes),
         TEST(test_it_brakes_before_a_bend),
         TEST(test_trucks_come_down_a_mountain_on_their_wheels),
