@@ -2,6 +2,7 @@
 #include "collider/step.h"
 
 #include "collider/narrow_phase/cruise_rows.h"
+#include "collider/parting/made_way.h"
 #include "collider/remote_rows.h"
 #include "collider/resting/ground_placement.h"
 #include "collider/resting/held_rest.h"
@@ -358,8 +359,10 @@ static void collide_all(struct step *step, struct response_context *context)
         end_guard_run(&collider->guard, &collider->resting, &collider->free, context);
     else
         ground_placement_changed(context);
-    if (rest)
+    if (rest) {
+        made_way_settle(&collider->aircraft, context);
         turret_guard_run(context);
+    }
     if (context->functions->joint)
         debris_push_step(context);
     remote_rows_settle(context, &step->moved->entities);

@@ -4,6 +4,7 @@
 
 #include "collider/narrow_phase/contact_pairs.h"
 #include "collider/narrow_phase/cruise_rows.h"
+#include "collider/parting/made_way.h"
 #include "collider/response/contact_impulse.h"
 #include "collider/response/contact_table.h"
 #include "collider/resting/deep_pair.h"
@@ -26,13 +27,6 @@
 
 /* Two that part end so far apart, so that their pilots do not press on each other at once [m]. */
 #define APART_M 0.1
-
-/* Those that make way for others go back until they are in their way, to within a part of their way
- * by so many halvings, over all in so many passes at most: those behind them follow. They need not
- * go back for less than this [m]. */
-#define HALVINGS 6u
-#define PASSES   16u
-#define ROOM_M   9e-3
 
 #define PAIRS_A_PIECE 8u
 #define ROWS_A_PIECE  16u
@@ -92,7 +86,7 @@ static void add_row(struct aircraft_parting *parting, struct response_context *c
     body->way = body->momentum = (struct vec3){0.0, 0.0, 0.0};
 }
 
-static struct aircraft_body *body_of(const struct aircraft_parting *parting, uint32_t row)
+struct aircraft_body *aircraft_parting_body(const struct aircraft_parting *parting, uint32_t row)
 {
     return &parting->body[parting->rows.place[row] - 1];
 }
@@ -184,14 +178,16 @@ static void stand_some(void *argument, uint32_t first, uint32_t end, uint32_t wo
     }
 }
 
-static void stand(struct job *job)
+void aircraft_parting_stand(struct aircraft_parting *parting,
+                            const struct response_context *context, bool ends)
 {
-    thread_pool_run(job->parting->workers, stand_some, job, job->parting->rows.count, ROWS_A_PIECE);
+    struct job job = {.parting = parting, .context = context, .ends = ends};
+    thread_pool_run(parting->workers, stand_some, &job, parting->rows.count, ROWS_A_PIECE);
 }
 
-static struct turned_body turned(const struct aircraft_parting *parting, uint32_t row)
+struct turned_body aircraft_parting_turned(const struct aircraft_parting *parting, uint32_t row)
 {
-    const struct aircraft_body *body = body_of(parting, row);
+    const struct aircraft_body *body = aircraft_parting_body(parting, row);
     return (struct turned_body){&body->body, body->turn};
 }
 
@@ -200,7 +196,8 @@ static struct turned_body turned(const struct aircraft_parting *parting, uint32_
 static bool overlap(const struct job *job, const struct pair *pair, double least_m,
                     struct level_gap *gap)
 {
-    const struct turned_body a = turned(job->parting, pair->a), b = turned(job->parting, pair->b);
+    const struct turned_body a = aircraft_parting_turned(job->parting, pair->a),
+                             b = aircraft_parting_turned(job->parting, pair->b);
     struct vec3 between = vec3_sub(b.body->path.at, a.body->path.at);
     double reach = a.body->bound_m + b.body->bound_m;
     return vec3_dot(between, between) < reach * reach &&
@@ -246,7 +243,7 @@ static void find_deep(struct aircraft_parting *parting, struct response_context 
     if (parting->rows.list.count == 0)
         return;
     parting->pair = parting_rows_sort(&parting->rows, parting->pair, sizeof *parting->pair);
-    stand(&job);
+    aircraft_parting_stand(parting, context, false);
     thread_pool_run(parting->workers, test_some, &job, parting->rows.list.count, PAIRS_A_PIECE);
     for (uint32_t i = 0; i < parting->rows.list.count; i++) {
         const struct pair *pair = &parting->rows.list.pair[i];
@@ -261,7 +258,8 @@ static void find_deep(struct aircraft_parting *parting, struct response_context 
 
 static bool is_alone(const struct aircraft_parting *parting, const struct pair *pair)
 {
-    return body_of(parting, pair->a)->in == 1 && body_of(parting, pair->b)->in == 1;
+    return aircraft_parting_body(parting, pair->a)->in == 1 &&
+           aircraft_parting_body(parting, pair->b)->in == 1;
 }
 
 /* Returns the body that stands for all that are in each other, directly or not. */
@@ -328,9 +326,9 @@ static void find_way(struct aircraft_parting *parting, const struct pair *pair,
                      struct level_gap *gap)
 {
     struct vec3 normal;
-    double way_m =
-        level_exit_of(&parting->exit, (struct exit_slope){0.0, 0.0},
-                      &body_of(parting, pair->a)->body, &body_of(parting, pair->b)->body, &normal);
+    double way_m = level_exit_of(&parting->exit, (struct exit_slope){0.0, 0.0},
+                                 &aircraft_parting_body(parting, pair->a)->body,
+                                 &aircraft_parting_body(parting, pair->b)->body, &normal);
     if (way_m < INFINITY) {
         gap->normal = normal;
         gap->gap_m = -way_m;
@@ -339,9 +337,8 @@ static void find_way(struct aircraft_parting *parting, const struct pair *pair,
 
 /* --- what is near ------------------------------------------------------------------------------*/
 
-/* Returns true if two end the frame so near that they may stand in each other's way. */
-static bool is_near(const struct response_context *context, uint32_t row, uint32_t other,
-                    double margin_m)
+bool aircraft_parting_is_near(const struct response_context *context, uint32_t row, uint32_t other,
+                              double margin_m)
 {
     const struct entities *e = &context->next->entities;
     double reach = contact_impulse_kind(context, row)->bound_m +
@@ -363,7 +360,7 @@ static void list_near(struct aircraft_parting *parting, struct response_context 
             if (other == SLOT_NONE)
                 continue;
             cruise_rows_stop(&context->input, other);
-            if (!is_near(context, row, other, margin_m))
+            if (!aircraft_parting_is_near(context, row, other, margin_m))
                 continue;
             add_row(parting, context, other);
             add_pair(parting, i, other);
@@ -379,8 +376,8 @@ static void list_deep(struct aircraft_parting *parting, struct response_context 
         const struct pair *pair = &parting->deep.pair[i];
         add_row(parting, context, pair->a);
         add_row(parting, context, pair->b);
-        body_of(parting, pair->a)->in++;
-        body_of(parting, pair->b)->in++;
+        aircraft_parting_body(parting, pair->a)->in++;
+        aircraft_parting_body(parting, pair->b)->in++;
     }
     for (uint32_t i = 0; i < parting->deep.count; i++) {
         const struct pair *pair = &parting->deep.pair[i];
@@ -418,7 +415,8 @@ static void measure_some(void *argument, uint32_t first, uint32_t end, uint32_t 
         one->overlaps = parts(job->context, pair) && overlap(job, pair, ROUNDING_M, &one->gap[0]);
         if (one->overlaps)
             continue;
-        const struct turned_body a = turned(parting, pair->a), b = turned(parting, pair->b);
+        const struct turned_body a = aircraft_parting_turned(parting, pair->a),
+                                 b = aircraft_parting_turned(parting, pair->b);
         one->count = level_gap_find_more(&a, &b, margin_of(job->context), one->gap,
                                          RESTING_GAPS_MAX, &apart_m, &memory);
     }
@@ -427,10 +425,10 @@ static void measure_some(void *argument, uint32_t first, uint32_t end, uint32_t 
 
 static void measure_near(struct aircraft_parting *parting, struct response_context *context)
 {
-    struct job job = {.parting = parting, .context = context, .ends = true};
+    struct job job = {.parting = parting, .context = context};
     list_near(parting, context, margin_of(context));
     parting->pair = parting_rows_sort(&parting->rows, parting->pair, sizeof *parting->pair);
-    stand(&job);
+    aircraft_parting_stand(parting, context, true);
     thread_pool_run(parting->workers, measure_some, &job, parting->rows.list.count, PAIRS_A_PIECE);
 }
 
@@ -469,7 +467,7 @@ static void find_normals(struct aircraft_parting *parting, const struct response
 static uint32_t level_of(struct aircraft_parting *parting, const struct response_context *context,
                          uint32_t row)
 {
-    struct aircraft_body *body = body_of(parting, row);
+    struct aircraft_body *body = aircraft_parting_body(parting, row);
     bool remote = remote_is(&context->next->entities, row);
     if (body->level != 0)
         return body->level - 1;
@@ -565,7 +563,7 @@ static void make_room(struct aircraft_parting *parting)
 /* Finds how far everybody goes. */
 static void find_steps(struct aircraft_parting *parting, const struct response_context *context)
 {
-    parting->levels = parting->parteds = parting->points = 0;
+    parting->parteds = parting->points = 0;
     make_room(parting);
     for (uint32_t i = 0; i < parting->rows.list.count; i++) {
         if (parting->pair[i].count > 0)
@@ -580,86 +578,6 @@ static void find_steps(struct aircraft_parting *parting, const struct response_c
                                                          .bodies = parting->levels,
                                                          .points = parting->points,
                                                          .pairs = parting->parteds});
-}
-
-/* --- those that make way -----------------------------------------------------------------------*/
-
-/* Puts a row so far on its way, a share of what it goes in the frame. */
-static void put_at(const struct job *job, uint32_t index, double share)
-{
-    const struct level_motion *pushed = &job->parting->level[index].pushed;
-    uint32_t row = job->parting->level_row[index];
-    double way_s = share * world_dt_s(job->context->world);
-    struct vec3 at = entities_position(&job->context->next->entities, row);
-    at.x += pushed->x * way_s;
-    at.z += pushed->z * way_s;
-    body_of(job->parting, row)->body.path.at = at;
-}
-
-/* Returns true if a row has less room to another one than bodies at rest keep, where both are put:
- * the search for impacts takes what is nearer for a contact, which stops them. */
-static bool is_in_the_way(const struct job *job, uint32_t row)
-{
-    const struct aircraft_parting *parting = job->parting;
-    for (uint32_t i = 0; i < parting->rows.list.count; i++) {
-        const struct pair *pair = &parting->rows.list.pair[i];
-        struct level_gap_memory memory = {0};
-        struct level_gap gap;
-        double apart_m;
-        if (parting->pair[i].count == 0 || (pair->a != row && pair->b != row))
-            continue;
-        const struct turned_body a = turned(parting, pair->a), b = turned(parting, pair->b);
-        if (level_gap_find_more(&a, &b, CONTACT_REST_M, &gap, 1, &apart_m, &memory) > 0)
-            return true;
-    }
-    return false;
-}
-
-/* Lets a row that only makes way go no farther than somebody needs. Returns true if it goes less
- * far. */
-static bool draw_back(const struct job *job, uint32_t index)
-{
-    struct aircraft_parting *parting = job->parting;
-    struct level_motion *pushed = &parting->level[index].pushed;
-    double far_m =
-        sqrt(pushed->x * pushed->x + pushed->z * pushed->z) * world_dt_s(job->context->world);
-    uint32_t row = parting->level_row[index];
-    if (row == SLOT_NONE || body_of(parting, row)->in > 0 || far_m <= ROOM_M)
-        return false;
-    double in = ROOM_M / far_m, out = 1.0;
-    put_at(job, index, in);
-    if (is_in_the_way(job, row)) {
-        for (uint32_t i = 0; i < HALVINGS; i++) {
-            double middle = 0.5 * (in + out);
-            put_at(job, index, middle);
-            if (is_in_the_way(job, row))
-                in = middle;
-            else
-                out = middle;
-        }
-    } else {
-        out = in;
-    }
-    put_at(job, index, out);
-    pushed->x *= out;
-    pushed->z *= out;
-    return out < 1.0;
-}
-
-/* The bounds are those of planes: beside them there may be room. */
-static void draw_all_back(struct aircraft_parting *parting, const struct response_context *context)
-{
-    const struct job job = {.parting = parting, .context = context};
-    for (uint32_t i = 0; i < parting->levels; i++) {
-        if (parting->level_row[i] != SLOT_NONE)
-            put_at(&job, i, 1.0);
-    }
-    bool any = true;
-    for (uint32_t pass = 0; any && pass < PASSES; pass++) {
-        any = false;
-        for (uint32_t n = 0; n < parting->levels; n++)
-            any |= draw_back(&job, pass % 2 == 0 ? n : parting->levels - 1 - n);
-    }
 }
 
 /* --- all ---------------------------------------------------------------------------------------*/
@@ -681,6 +599,7 @@ uint32_t aircraft_parting_run(struct aircraft_parting *parting, struct response_
                               uint32_t count)
 {
     uint32_t first = count;
+    parting->levels = 0;
     find_deep(parting, context, fresh, fresh_count);
     if (parting->deep.count == 0)
         return count;
@@ -688,7 +607,7 @@ uint32_t aircraft_parting_run(struct aircraft_parting *parting, struct response_
     measure_near(parting, context);
     find_normals(parting, context);
     find_steps(parting, context);
-    draw_all_back(parting, context);
+    made_way_draw_back(parting, context);
     let_touch(parting, context);
     for (uint32_t i = 0; i < parting->levels; i++) {
         uint32_t row = parting->level_row[i];

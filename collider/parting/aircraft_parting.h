@@ -30,6 +30,7 @@ struct aircraft_body {
     uint32_t parent;           /* union-find of those that are in each other */
     double kg;                 /* of a root: of all of them */
     struct vec3 way, momentum; /* [kg m], [N s] the same */
+    struct vec3 home; /* [m, world] of one that makes way: where it would be without its step */
 };
 
 /* The collider's own memory. */
@@ -63,5 +64,19 @@ void aircraft_parting_free(struct aircraft_parting *parting);
 uint32_t aircraft_parting_run(struct aircraft_parting *parting, struct response_context *context,
                               const uint32_t *fresh, uint32_t fresh_count, uint32_t *moved,
                               uint32_t count);
+
+/* Returns what is known of a row that is listed. */
+struct aircraft_body *aircraft_parting_body(const struct aircraft_parting *parting, uint32_t row);
+
+/* Returns true if two rows, as they are in the table, may be so near to each other. */
+bool aircraft_parting_is_near(const struct response_context *context, uint32_t row, uint32_t other,
+                              double margin_m);
+
+/* Finds how all listed rows stand: when the frame begins, or as they are when it ends. */
+void aircraft_parting_stand(struct aircraft_parting *parting,
+                            const struct response_context *context, bool ends);
+
+/* Returns a listed row as it was found to stand. */
+struct turned_body aircraft_parting_turned(const struct aircraft_parting *parting, uint32_t row);
 
 #endif
