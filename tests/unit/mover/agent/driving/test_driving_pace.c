@@ -167,7 +167,8 @@ static void test_they_get_over_steps_and_hills_unhurt(void **state)
     static const char *const tracked[] = {"tank", "carrier", "howitzer", "flak"};
     static const char *const tall[] = {"jeep", "truck", "hamburger", "attack-tomato"};
     (void)state;
-    for (double hz = 10.0; hz < 100.0; hz += 50.0) {
+    for (int n = 0; n < 2; n++) {
+        const double hz = n == 0 ? 10.0 : 60.0;
         open_work("shape = \"table\"; length_m = 8.0; height_m = 0.85; edge_m = 0.11;", hz);
         assert_int_equal(count_over(tracked, 4, hz), 4);
         open_work("shape = \"table\"; length_m = 60.0; height_m = 6.0; grade_percent = 40.0;", hz);
