@@ -318,12 +318,8 @@ static bool is_discrete(const struct world *world)
 /* Solves the contacts of free bodies, and parts those in the air that begin in each other. */
 static void solve_free(struct collider *collider, struct response_context *context)
 {
-    struct free_bodies *bodies = &collider->free;
-    const struct contact_groups *groups = &bodies->groups;
-    free_bodies_solve(bodies, context);
-    bodies->moved_count =
-        aircraft_parting_run(&collider->aircraft, context, groups->begun, groups->begun_count,
-                             bodies->moved, bodies->moved_count);
+    free_bodies_solve(&collider->free, context);
+    aircraft_parting_run(&collider->aircraft, context, &collider->free);
 }
 
 static void collide_all(struct step *step, struct response_context *context)
@@ -354,6 +350,8 @@ static void collide_all(struct step *step, struct response_context *context)
         work_done();
     }
 
+    if (rest)
+        aircraft_parting_share(&collider->aircraft, context, &collider->free);
     settle_on_new_ground(step, context);
     if (context->functions->joint)
         end_guard_run(&collider->guard, &collider->resting, &collider->free, context);

@@ -290,35 +290,99 @@ static void add_up(const struct aircraft_parting *parting, const struct response
         vec3_add(root->momentum, vec3_scale(entities_velocity(&context->next->entities, row), kg));
 }
 
-/* Lets a row go as all do, turned as it was when the frame began. */
+static struct quat pose_of(const struct entities *e, uint32_t row)
+{
+    return rotation_of(e->row[row].heading, e->row[row].pitch, e->row[row].roll);
+}
+
+/* Turns a row as it was when the frame began, and gives it the common velocity. It has no spin:
+ * with one that does not turn it, it would drive what it touches in each frame anew. */
 static void carry(const struct aircraft_parting *parting, struct response_context *context,
-                  uint32_t row)
+                  uint32_t row, struct vec3 way)
 {
     const struct aircraft_body *root = root_of(parting, row);
     const struct entities *w = body_motion_before(context->motion, row);
-    struct vec3 way = vec3_scale(root->way, 1.0 / root->kg);
     table_set_position(&context->writer, row, vec3_add(entities_position(w, row), way));
     table_set_velocity(&context->writer, row, vec3_scale(root->momentum, 1.0 / root->kg));
     table_set_heading(&context->writer, row, w->row[row].heading);
     table_set_pitch(&context->writer, row, w->row[row].pitch);
     table_set_roll(&context->writer, row, w->row[row].roll);
-    table_set_spin(&context->writer, row,
-                   (struct vec3){w->row[row].spin_x, w->row[row].spin_y, w->row[row].spin_z});
-    body_motion_compute(context->motion, row);
+    table_set_spin(&context->writer, row, (struct vec3){0.0, 0.0, 0.0});
 }
 
 /* Those that are in each other go as their common centre of mass does, and do not turn: neither
  * their motion nor their pilots bring them deeper into each other or into those beside them, and
  * they do not close when they have parted. Their momentum is what it was, and their energy no more.
  */
-static void go_together(const struct aircraft_parting *parting, struct response_context *context)
+static void go_together(const struct aircraft_parting *parting, struct response_context *context,
+                        struct free_bodies *bodies)
 {
     for (uint32_t i = 0; i < parting->deep.count; i++)
         join(parting, &parting->deep.pair[i]);
     for (uint32_t i = 0; i < parting->rows.count; i++)
         add_up(parting, context, parting->rows.row[i]);
-    for (uint32_t i = 0; i < parting->rows.count; i++)
-        carry(parting, context, parting->rows.row[i]);
+    for (uint32_t i = 0; i < parting->rows.count; i++) {
+        uint32_t row = parting->rows.row[i];
+        const struct aircraft_body *root = root_of(parting, row);
+        struct vec3 way = vec3_scale(root->way, 1.0 / root->kg);
+        carry(parting, context, row, way);
+        body_motion_compute(context->motion, row);
+        free_bodies_drift(bodies, row, way);
+    }
+}
+
+/* Returns how far the steps displace a row [m]. */
+static struct vec3 step_of(const struct aircraft_parting *parting,
+                           const struct response_context *context, uint32_t index)
+{
+    const struct aircraft_body *body = &parting->body[index];
+    double dt_s = world_dt_s(context->world);
+    if (body->level == 0)
+        return (struct vec3){0.0, 0.0, 0.0};
+    const struct level_motion *pushed = &parting->level[body->level - 1].pushed;
+    return (struct vec3){pushed->x * dt_s, 0.0, pushed->z * dt_s};
+}
+
+/* Adds up the ways without steps, and the momenta, of those that go together. */
+static void add_up_ends(const struct aircraft_parting *parting,
+                        const struct response_context *context)
+{
+    const struct entities *e = &context->next->entities;
+    for (uint32_t i = 0; i < parting->members; i++) {
+        parting->body[i].way = parting->body[i].momentum = (struct vec3){0.0, 0.0, 0.0};
+        parting->body[i].struck = false;
+    }
+    for (uint32_t i = 0; i < parting->members; i++) {
+        uint32_t row = parting->rows.row[i];
+        struct aircraft_body *root = root_of(parting, row);
+        const struct entities *w = body_motion_before(context->motion, row);
+        double kg = contact_impulse_kind(context, row)->mass_kg;
+        struct vec3 came = vec3_sub(entities_position(e, row), entities_position(w, row));
+        came = vec3_sub(came, step_of(parting, context, i));
+        root->way = vec3_add(root->way, vec3_scale(came, kg));
+        root->momentum = vec3_add(root->momentum, vec3_scale(entities_velocity(e, row), kg));
+        root->struck |= context->motion->change[row] != 0;
+    }
+}
+
+void aircraft_parting_share(struct aircraft_parting *parting, struct response_context *context,
+                            struct free_bodies *bodies)
+{
+    add_up_ends(parting, context);
+    for (uint32_t i = 0; i < parting->members; i++) {
+        uint32_t row = parting->rows.row[i];
+        const struct aircraft_body *root = root_of(parting, row);
+        if (!root->struck)
+            continue;
+        const struct entities *w = body_motion_before(context->motion, row);
+        struct vec3 way = vec3_scale(root->way, 1.0 / root->kg);
+        struct vec3 along = vec3_add(way, step_of(parting, context, i));
+        const struct path path = {.at = entities_position(w, row), .along = along};
+        const struct rotation_path rotation = {.from = pose_of(w, row), .to = pose_of(w, row)};
+        body_motion_change(context->motion, row, &path, &rotation);
+        carry(parting, context, row, along);
+        free_bodies_drift(bodies, row, way);
+    }
 }
 
 /* Finds the shortest way out of each other. */
@@ -369,7 +433,8 @@ static void list_near(struct aircraft_parting *parting, struct response_context 
 }
 
 /* Lists the rows that part, and lets them go together. */
-static void list_deep(struct aircraft_parting *parting, struct response_context *context)
+static void list_deep(struct aircraft_parting *parting, struct response_context *context,
+                      struct free_bodies *bodies)
 {
     parting_rows_forget(&parting->rows);
     for (uint32_t i = 0; i < parting->deep.count; i++) {
@@ -385,7 +450,8 @@ static void list_deep(struct aircraft_parting *parting, struct response_context 
             context->contacts->marks[contact_pairs_find(context->contacts, pair) - 1] |=
                 CONTACT_CAPSULES;
     }
-    go_together(parting, context);
+    parting->members = parting->rows.count;
+    go_together(parting, context, bodies);
 }
 
 static double margin_of(const struct response_context *context)
@@ -594,16 +660,15 @@ static void go(struct response_context *context, uint32_t row, const struct leve
     contact_queue_ground(context->contacts, &context->input, row);
 }
 
-uint32_t aircraft_parting_run(struct aircraft_parting *parting, struct response_context *context,
-                              const uint32_t *fresh, uint32_t fresh_count, uint32_t *moved,
-                              uint32_t count)
+void aircraft_parting_run(struct aircraft_parting *parting, struct response_context *context,
+                          struct free_bodies *bodies)
 {
-    uint32_t first = count;
-    parting->levels = 0;
-    find_deep(parting, context, fresh, fresh_count);
+    uint32_t first = bodies->moved_count;
+    parting->levels = parting->members = 0;
+    find_deep(parting, context, bodies->groups.begun, bodies->groups.begun_count);
     if (parting->deep.count == 0)
-        return count;
-    list_deep(parting, context);
+        return;
+    list_deep(parting, context, bodies);
     measure_near(parting, context);
     find_normals(parting, context);
     find_steps(parting, context);
@@ -615,9 +680,8 @@ uint32_t aircraft_parting_run(struct aircraft_parting *parting, struct response_
         if (row == SLOT_NONE || (pushed->x == 0.0 && pushed->z == 0.0))
             continue;
         go(context, row, pushed);
-        moved[count++] = row;
+        bodies->moved[bodies->moved_count++] = row;
     }
-    for (uint32_t i = first; i < count; i++)
-        contact_queue_look(context->contacts, &context->input, moved[i], false);
-    return count;
+    for (uint32_t i = first; i < bodies->moved_count; i++)
+        contact_queue_look(context->contacts, &context->input, bodies->moved[i], false);
 }

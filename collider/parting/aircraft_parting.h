@@ -9,6 +9,7 @@
 #include "collider/geometry/level_gap.h"
 #include "collider/parting/parting_rows.h"
 #include "collider/response/response_context.h"
+#include "collider/resting/free_bodies.h"
 #include "collider/resting/resting.h"
 
 #include <stdbool.h>
@@ -30,6 +31,7 @@ struct aircraft_body {
     uint32_t parent;           /* union-find of those that are in each other */
     double kg;                 /* of a root: of all of them */
     struct vec3 way, momentum; /* [kg m], [N s] the same */
+    bool struck;               /* of a root: one of them has had an impact */
     struct vec3 home; /* [m, world] of one that makes way: where it would be without its step */
 };
 
@@ -38,6 +40,7 @@ struct aircraft_parting {
     struct thread_pool *workers;
     struct parting_rows rows;   /* first those that are new, then those that part from them */
     uint32_t fresh;             /* so many are new */
+    uint32_t members;           /* then the first ones are in each other */
     struct aircraft_body *body; /* [rows.count] */
     struct aircraft_pair *pair; /* [rows.list.count] */
     struct pair_list deep;      /* those that begin the frame in each other */
@@ -58,12 +61,15 @@ int aircraft_parting_init(struct aircraft_parting *parting, const struct world *
 void aircraft_parting_free(struct aircraft_parting *parting);
 
 /* Finds the aircraft that are deep in each other: those that are new in this frame, and those that
- * have not parted yet. Marks their pairs as CONTACT_PARTS, and displaces them with all that make
- * room. Adds the rows that it moves to moved, and returns how many it holds then. fresh: [count]
- * the new ones. All bodies must have their motion, and nothing must have been swept. */
-uint32_t aircraft_parting_run(struct aircraft_parting *parting, struct response_context *context,
-                              const uint32_t *fresh, uint32_t fresh_count, uint32_t *moved,
-                              uint32_t count);
+ * have not parted yet. Marks their pairs as CONTACT_PARTS, lets them go together, and displaces
+ * them with all that make room. bodies: which are new; adds the rows that it moves. All bodies must
+ * have their motion, and nothing must have been swept. */
+void aircraft_parting_run(struct aircraft_parting *parting, struct response_context *context,
+                          struct free_bodies *bodies);
+
+/* Lets those that part share the impacts that one of them has had: they go on together. */
+void aircraft_parting_share(struct aircraft_parting *parting, struct response_context *context,
+                            struct free_bodies *bodies);
 
 /* Returns what is known of a row that is listed. */
 struct aircraft_body *aircraft_parting_body(const struct aircraft_parting *parting, uint32_t row);

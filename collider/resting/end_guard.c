@@ -6,6 +6,7 @@
 #include "collider/resting/deep_pair.h"
 #include "collider/resting/ground_placement.h"
 #include "collider/resting/held_rest.h"
+#include "collider/resting/send_back.h"
 #include "collider/response/path_change.h"
 #include "world/entity/persistent_contact.h"
 #include "world/params.h"
@@ -25,9 +26,6 @@
 #define PIECES          64u
 #define ROWS_A_PIECE    16u
 #define MOST_ROWS_PAIRS 8u /* up to so many pairs for each row that is looked at, most rows are */
-#define SENT_BACK_HALF  3u /* so often a row goes back by half, the next time all the way */
-#define SENT_BACK_TURN  4u /* then a vehicle that drives goes back by its turn alone */
-#define SENT_BACK_MOST  5u /* aircraft that go together go back among themselves before */
 
 /* A body at rest. */
 struct placed_body {
@@ -305,82 +303,16 @@ static void look_at(struct end_guard *guard, uint32_t row)
     guard->listed[row] = 1;
 }
 
-/* A body that tyres, tracks or its weight hold to the ground keeps only the speed of the motion
- * that it kept. One that rolls freely keeps its momentum. */
-static void slow_down(struct response_context *context, uint32_t row, double keep)
+/* Returns true if a row goes together with others in the air. */
+static bool goes_together(const struct end_guard *guard, uint32_t row)
 {
-    const struct entities *e = &context->next->entities;
-    if (e->row[row].state == ENTITY_ACTIVE && e->row[row].behaviour == BEHAVIOUR_HOLD)
-        return;
-    table_set_vx(&context->writer, row, e->row[row].vx * keep);
-    table_set_vz(&context->writer, row, e->row[row].vz * keep);
-    table_set_spin_y(&context->writer, row, e->row[row].spin_y * keep);
-}
-
-/* A wreck, and a vehicle on its springs, are rigid bodies: they go back in their whole pose. The
- * body that a wreck fell on stops it. */
-static void send_body_back(struct response_context *context, uint32_t row, struct vec3 drift,
-                           double keep)
-{
-    const struct entities *w = &context->motion->before, *e = &context->next->entities;
-    double heading = w->row[row].heading, pitch = w->row[row].pitch, roll = w->row[row].roll;
-    if (keep > 0.0) {
-        struct quat to = rotation_of(e->row[row].heading, e->row[row].pitch, e->row[row].roll);
-        rotation_angles(rotation_between(rotation_of(heading, pitch, roll), to, keep), &heading,
-                        &pitch, &roll);
-    }
-    table_set_position(
-        &context->writer, row,
-        vec3_lerp(vec3_add(entities_position(w, row), drift), entities_position(e, row), keep));
-    table_set_heading(&context->writer, row, heading);
-    table_set_pitch(&context->writer, row, pitch);
-    table_set_roll(&context->writer, row, roll);
-    if (contact_groups_is_piloted(context, row))
-        return;
-    table_set_velocity(&context->writer, row, vec3_scale(entities_velocity(e, row), keep));
-    table_set_spin(&context->writer, row,
-                   (struct vec3){e->row[row].spin_x * keep, e->row[row].spin_y * keep,
-                                 e->row[row].spin_z * keep});
-}
-
-/* Sends a row back on its way from where it began the frame. */
-static void send_back(struct end_guard *guard, struct response_context *context, uint32_t row)
-{
-    const struct entities *w = &context->motion->before, *e = &context->next->entities;
-    double keep = ++guard->sent_back[row] <= SENT_BACK_HALF ? 0.5 : 0.0;
-    if (drift_guard_drifts(context, row)) {
-        uint32_t times = guard->sent_back[row];
-        drift_guard_send_back(context, row,
-                              times == SENT_BACK_MOST   ? -1.0
-                              : times <= SENT_BACK_HALF ? 1.0 / (1u << times)
-                                                        : 0.0);
-        return;
-    }
-    struct vec3 drift = guard->drift[row];
-    bool drifts = vec3_dot(drift, drift) > 0.0;
-    if (guard->sent_back[row] == SENT_BACK_TURN && !drifts && held_rest_turn_back(context, row))
-        return;
-    if (keep == 0.0 && (!drifts || guard->sent_back[row] == SENT_BACK_MOST)) {
-        drift = (struct vec3){0.0, 0.0, 0.0};
-        guard->sent_back[row] = SENT_BACK_MOST;
-    }
-    held_rest_keep_springs(context, row);
-    if (e->row[row].state == ENTITY_WRECK || e->row[row].flags & ENTITY_FLAG_CHASSIS ||
-        contact_groups_is_piloted(context, row)) {
-        send_body_back(context, row, drift, keep);
-        return;
-    }
-    double turn = maths_wrap_half(e->row[row].heading - w->row[row].heading);
-    ground_placement_put(context, row,
-                         vec3_lerp(entities_position(w, row), entities_position(e, row), keep),
-                         maths_wrap_turn(w->row[row].heading + turn * keep));
-    slow_down(context, row, keep);
+    return vec3_dot(guard->drift[row], guard->drift[row]) > 0.0;
 }
 
 /* Adds a row to those that have to go back, unless it is back already. */
 static void mark(struct end_guard *guard, const struct response_context *context, uint32_t row)
 {
-    if (guard->marked[row] || guard->sent_back[row] == SENT_BACK_MOST || !guarded(context, row))
+    if (guard->marked[row] || guard->sent_back[row] == SEND_BACK_MOST || !guarded(context, row))
         return;
     guard->marked[row] = 1;
     guard->back[guard->back_count++] = row;
@@ -594,7 +526,8 @@ static void run_round(struct end_guard *guard, struct response_context *context)
         guard->marked[row] = 0;
         if (guard->sent_back[row] == 0)
             guard->touched[guard->touched_count++] = row;
-        send_back(guard, context, row);
+        guard->sent_back[row] =
+            send_back_go(context, row, guard->drift[row], guard->sent_back[row] + 1);
         stand_now(guard, context, row);
         look_at(guard, row);
     }
@@ -681,7 +614,7 @@ static bool home_of(const struct end_guard *guard, const struct resting *resting
     const struct level_motion *pushed = &resting->body[index].pushed;
     uint32_t row = resting->row[index];
     if (row == SLOT_NONE || !resting->parting.body[index].makes_way || !guarded(context, row) ||
-        context->motion->change[row] != 0 || times_back(guard, row) > SENT_BACK_HALF)
+        context->motion->change[row] != 0 || times_back(guard, row) > SEND_BACK_HALF)
         return false;
     double dt_s = world_dt_s(context->world), keep = 1.0 / (1u << times_back(guard, row));
     const struct path *path = &context->path[row];
@@ -784,12 +717,13 @@ void end_guard_run(struct end_guard *guard, const struct resting *resting,
         run_round(guard, context);
     draw_all_back(guard, resting, context);
     for (uint32_t i = 0; i < guard->touched_count; i++) {
-        if (guard->sent_back[guard->touched[i]] == SENT_BACK_MOST)
+        if (guard->sent_back[guard->touched[i]] == SEND_BACK_MOST)
             held_rest_mark(context, guard->touched[i]);
     }
     for (uint32_t i = 0; i < guard->touched_count; i++) {
         uint32_t row = guard->touched[i];
-        if (guard->sent_back[row] == SENT_BACK_MOST && drift_guard_drifts(context, row))
+        if (guard->sent_back[row] == SEND_BACK_MOST && !goes_together(guard, row) &&
+            drift_guard_drifts(context, row))
             drift_guard_restore(&guard->drifting, context, row);
     }
     drift_guard_forget(&guard->drifting);

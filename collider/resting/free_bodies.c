@@ -57,9 +57,10 @@ int free_bodies_init(struct free_bodies *bodies, const struct world *world)
     bodies->body_of = calloc(rows, sizeof *bodies->body_of);
     bodies->owned = calloc(rows, sizeof *bodies->owned);
     bodies->drift = calloc(rows, sizeof *bodies->drift);
+    bodies->drifting = reserve_take(2 * (uint64_t)rows, sizeof *bodies->drifting);
     if (contact_groups_init(&bodies->groups, world) == 0 && bodies->body && bodies->side &&
         bodies->contact && bodies->pair && bodies->moved && bodies->body_of && bodies->owned &&
-        bodies->drift)
+        bodies->drift && bodies->drifting)
         return 0;
     free_bodies_free(bodies);
     errno = ENOMEM;
@@ -77,6 +78,7 @@ void free_bodies_free(struct free_bodies *bodies)
     free(bodies->body_of);
     free(bodies->owned);
     free(bodies->drift);
+    reserve_free(bodies->drifting);
     *bodies = (struct free_bodies){.count = 0};
 }
 
@@ -208,6 +210,20 @@ uint32_t free_bodies_root(struct free_bodies *bodies, uint32_t body)
         body = bodies->side[body].parent;
     }
     return body;
+}
+
+static bool drifts(const struct free_bodies *bodies, uint32_t row)
+{
+    const struct vec3 drift = bodies->drift[row];
+    return vec3_dot(drift, drift) > 0.0;
+}
+
+void free_bodies_drift(struct free_bodies *bodies, uint32_t row, struct vec3 drift)
+{
+    bool listed = drifts(bodies, row);
+    bodies->drift[row] = drift;
+    if (!listed && drifts(bodies, row))
+        bodies->drifting[bodies->drifting_count++] = row;
 }
 
 static void join(struct free_bodies *bodies, uint32_t p, uint32_t q)
@@ -410,8 +426,9 @@ static void forget(struct free_bodies *bodies)
 {
     for (uint32_t i = 0; i < bodies->moved_count; i++)
         bodies->owned[bodies->moved[i]] = 0;
-    for (uint32_t i = 1; i < bodies->count; i++)
-        bodies->drift[bodies->side[i].row] = (struct vec3){0.0, 0.0, 0.0};
+    for (uint32_t i = 0; i < bodies->drifting_count; i++)
+        bodies->drift[bodies->drifting[i]] = (struct vec3){0.0, 0.0, 0.0};
+    bodies->drifting_count = 0;
     bodies->moved_count = bodies->pairs = bodies->contacts = 0;
     bodies->count = 1;
 }

@@ -50,10 +50,12 @@ struct free_bodies {
     uint32_t contacts, contact_capacity;
     struct free_pair *pair;
     uint32_t pairs, pair_capacity;
-    uint32_t *body_of; /* [capacity of the world] body, or 0 */
-    uint8_t *owned;    /* [capacity of the world] 1: this frame's contacts move the row freely */
-    struct vec3
-        *drift; /* [capacity of the world] the way that aircraft in contact go together [m] */
+    uint32_t *body_of;  /* [capacity of the world] body, or 0 */
+    uint8_t *owned;     /* [capacity of the world] 1: this frame's contacts move the row freely */
+    struct vec3 *drift; /* [capacity of the world] the way that aircraft in contact, or that part,
+                           go together [m] */
+    uint32_t *drifting; /* rows that have a drift; some twice */
+    uint32_t drifting_count;
     uint32_t
         *moved; /* rows whose motion the contacts determine, or that part in the air; some twice */
     uint32_t moved_count;
@@ -68,6 +70,9 @@ void free_bodies_free(struct free_bodies *bodies);
  * Marks pairs like resting_solve(), which must have run. Lists the bodies in the air that are new
  * in this frame in groups.begun. */
 void free_bodies_solve(struct free_bodies *bodies, struct response_context *context);
+
+/* Lets a row go together with others in this frame. */
+void free_bodies_drift(struct free_bodies *bodies, uint32_t row, struct vec3 drift);
 
 /* Returns the body that stands for all that touch a body, directly or not. */
 uint32_t free_bodies_root(struct free_bodies *bodies, uint32_t body);

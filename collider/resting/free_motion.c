@@ -92,7 +92,8 @@ static void find_drift(struct free_bodies *bodies, double dt_s)
     for (uint32_t i = 1; i < bodies->count; i++) {
         const struct free_side *root = &bodies->side[free_bodies_root(bodies, i)];
         if (root->kg > 0.0)
-            bodies->drift[bodies->side[i].row] = vec3_scale(root->momentum, dt_s / root->kg);
+            free_bodies_drift(bodies, bodies->side[i].row,
+                              vec3_scale(root->momentum, dt_s / root->kg));
     }
 }
 
