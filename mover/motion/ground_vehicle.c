@@ -524,25 +524,6 @@ static double climb_of(const struct ground_vehicle *batch, int l, double heading
 
 #define LEAVES_DEEP_M 0.01 /* from this depth the ground pushes a shell out that leaves it */
 
-/* Returns how deep the first points of the row's shell are in the ground if it leaves it here, or
- * where it was before the frame, which is a single one [m]. */
-static double leaving_depth(const struct step_context *context, const struct ground_vehicle *batch,
-                            int l, uint32_t points, bool before)
-{
-    const uint32_t i = batch->row[l];
-    const struct entities *w = &context->committed->entities, *m = context->m;
-    const double pitch = batch->pitch.lane[l];
-    const double heading = before ? m->row[i].heading : batch->heading.lane[l];
-    const double climb_mps = before ? 0.0 : climb_of(batch, l, heading, pitch);
-    const struct vec3 at = {before ? m->row[i].x : batch->pose.x.lane[l],
-                            batch->y.lane[l] + climb_mps * context->dt_s,
-                            before ? m->row[i].z : batch->pose.z.lane[l]};
-    const struct mat3 turn = rotation_matrix(rotation_of(heading, pitch, w->row[i].roll));
-    return vehicle_shell_depth(&context->world->terrain,
-                               batch->pose.cratered.lane[l] ? context->craters : NULL,
-                               &context->world->kinds[m->row[i].kind], points, at, &turn);
-}
-
 /* How a row that has moved gets into the ground. */
 enum entry { STAYS_OUT, LEAVES_HERE, LEAVES_BEFORE };
 
@@ -554,25 +535,31 @@ enum entry { STAYS_OUT, LEAVES_HERE, LEAVES_BEFORE };
 static enum entry entry_of(const struct step_context *context, const struct ground_vehicle *batch,
                            int l, bool bends)
 {
-    const struct kind *kind = &context->world->kinds[context->m->row[batch->row[l]].kind];
+    const uint32_t i = batch->row[l];
+    const struct entities *w = &context->committed->entities, *m = context->m;
+    const struct kind *kind = &context->world->kinds[m->row[i].kind];
     const struct terrain *terrain = &context->world->terrain;
     const struct ground_pose *pose = &batch->pose;
     const struct crater_index *craters = pose->cratered.lane[l] ? context->craters : NULL;
     const uint32_t points = bends ? VEHICLE_SHELL_SIDES : VEHICLE_SHELL_ENDS;
     const double heading = batch->heading.lane[l], dt_s = ground_vehicle_time_s(context, batch);
     const struct rest_pose stands = set_on(context, batch, l);
-    const struct vec3 at = {pose->x.lane[l], stands.y_m, pose->z.lane[l]};
+    struct vec3 at = {pose->x.lane[l], stands.y_m, pose->z.lane[l]};
     const struct vec3 way = {batch->vx.lane[l] * dt_s,
                              climb_of(batch, l, heading, stands.pitch_rad) * dt_s,
                              batch->vz.lane[l] * dt_s};
-    const struct mat3 turn =
-        rotation_matrix(rotation_of(heading, stands.pitch_rad, stands.roll_rad));
+    struct mat3 turn = rotation_matrix(rotation_of(heading, stands.pitch_rad, stands.roll_rad));
     if (vehicle_shell_depth(terrain, craters, kind, points, at, &turn) <= 0.0 &&
         vehicle_shell_depth(terrain, craters, kind, points, vec3_add(at, way), &turn) <= 0.0)
         return STAYS_OUT;
-    if (leaving_depth(context, batch, l, points, false) <= 0.0)
+    turn = rotation_matrix(rotation_of(heading, batch->pitch.lane[l], w->row[i].roll));
+    at.y = batch->y.lane[l] + climb_of(batch, l, heading, batch->pitch.lane[l]) * dt_s;
+    if (vehicle_shell_depth(terrain, craters, kind, points, at, &turn) <= 0.0)
         return LEAVES_HERE;
-    return pose->cratered.lane[l] && leaving_depth(context, batch, l, points, true) <= LEAVES_DEEP_M
+    turn = rotation_matrix(rotation_of(m->row[i].heading, batch->pitch.lane[l], w->row[i].roll));
+    at = (struct vec3){m->row[i].x, batch->y.lane[l], m->row[i].z};
+    return pose->cratered.lane[l] &&
+                   vehicle_shell_depth(terrain, craters, kind, points, at, &turn) <= LEAVES_DEEP_M
                ? LEAVES_BEFORE
                : STAYS_OUT;
 }
@@ -615,18 +602,6 @@ static void find_jolts(const struct step_context *context, struct ground_vehicle
         if (batch->pose.lift.lane[l] - most_m >
             terrain_lift(&context->world->terrain, context->craters, &before))
             batch->rough.lane[l] = -1;
-    }
-}
-
-/* Finds the lanes that would leave the ground with their shell in a work or a crater, which lifts
- * them no longer. Those that were out of it keep their place. */
-static void find_walls(const struct step_context *context, struct ground_vehicle *batch)
-{
-    for (int l = 0; l < batch->count; l++) {
-        if (batch->rough.lane[l] && !batch->walled.lane[l] && batch->pose.cratered.lane[l] &&
-            leaving_depth(context, batch, l, VEHICLE_SHELL_SIDES, false) > LEAVES_DEEP_M &&
-            leaving_depth(context, batch, l, VEHICLE_SHELL_SIDES, true) <= LEAVES_DEEP_M)
-            batch->walled.lane[l] = -1;
     }
 }
 
@@ -686,7 +661,6 @@ static inline void find_rough(const struct step_context *context, struct ground_
     if (batch->frames == 1) {
         find_hollows(context, batch);
         find_jolts(context, batch);
-        find_walls(context, batch);
     }
     find_slides(context, batch, forward);
 }

@@ -152,39 +152,6 @@ static void test_no_shell_turns_into_a_wall(void **state)
     assert_true(deepest < 0.02);
 }
 
-/* At 10 Hz fast vehicles come 1.6 m onto a bank within a frame, which lifts them so fast that they
- * take to their springs. As they are not lifted then, their sides were up to 15 cm in the bank. */
-static void test_no_shell_is_driven_into_a_bank(void **state)
-{
-    double deepest = -1.0;
-    uint32_t sprung = 0;
-    (void)state;
-    fixture_close(&f);
-    fixture_open(&f,
-                 "world = { hz = 10.0; };"
-                 "earthworks = ( { shape = \"table\"; at = [25000.0, 25000.0]; length_m = 3.2;"
-                 "  width_m = 400.0; height_m = 0.78; grade_percent = 57.7; edge_m = 0.16; } );");
-    for (int n = 0; n < 16; n++) {
-        const double x = 24840.0 + 20.0 * n;
-        uint32_t row = put("attack-tomato", x, 25003.2 + 0.12 * n, 0.0, 16.5);
-        struct entities e = steps_rows(&f);
-        e.row[row].behaviour = BEHAVIOUR_PATROL;
-        e.row[row].goal_x = x;
-        e.row[row].goal_z = 24800.0;
-    }
-    for (int frame = 0; frame < 15; frame++) {
-        fixture_run(&f, 1);
-        for (uint32_t row = 0; row < 16; row++) {
-            deepest = maths_max(deepest, shell_depth(row));
-            sprung += (steps_rows(&f).row[row].flags & ENTITY_FLAG_CHASSIS) != 0;
-        }
-    }
-    print_message("# figures: a shell %.1f mm in a bank, %u looks on springs\n", 1e3 * deepest,
-                  sprung);
-    assert_true(sprung > 50);
-    assert_true(deepest < 0.02);
-}
-
 /* Agents come to the rim of a crater that is too near to go around. What lifts their corners must
  * not throw them up within a frame: they take to their springs at once. They were lifted by 2 cm,
  * with 1.1 m/s. */
@@ -223,7 +190,6 @@ int main(void)
         TEST(test_no_shell_gets_into_the_ground_of_a_hollow),
         TEST(test_no_stretch_leads_through_a_hollow),
         TEST(test_no_shell_turns_into_a_wall),
-        TEST(test_no_shell_is_driven_into_a_bank),
         TEST(test_no_rim_lifts_it_with_a_jerk),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
