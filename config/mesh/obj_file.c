@@ -11,6 +11,7 @@
 
 #define WORDS_MAX (1 + OBJ_FILE_CORNERS_MAX)
 
+#define NUMBERS_MAX     3 /* of a line */
 #define NUMBER_TEXT_MAX 31
 
 #define NAME_CHARACTERS "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.-_"
@@ -27,7 +28,8 @@ struct reading {
     struct key_place place;
     struct error_text *error;
     struct word word[WORDS_MAX];
-    uint32_t words; /* may be above WORDS_MAX, which is too many for any rule */
+    uint32_t words;             /* may be above WORDS_MAX, which is too many for any rule */
+    double number[NUMBERS_MAX]; /* of the last line of numbers */
     obj_file_open *open;
     void *context;
     bool library;         /* there was a line mtllib */
@@ -92,22 +94,23 @@ static size_t number_length(const char *text)
     return length;
 }
 
-static int check_number(const struct reading *reading, uint32_t index, double low, double high)
+static int read_number(struct reading *reading, uint32_t index, double low, double high)
 {
     const struct word *word = &reading->word[index];
     char wrong[80];
     if (word->length > NUMBER_TEXT_MAX || number_length(word->text) != word->length)
         return refuse(reading, index, "is not a number; right would be: a number such as -1.25");
-    double value = strtod(word->text, NULL);
+    const double value = strtod(word->text, NULL);
+    reading->number[index - 1] = value;
     if (value >= low && value <= high)
         return 0;
     snprintf(wrong, sizeof(wrong), "out of range; allowed: %g..%g", low, high);
     return refuse(reading, index, wrong);
 }
 
-/* Checks that the words after the first are numbers, `least` to `most` of them. */
-static int check_numbers(const struct reading *reading, uint32_t least, uint32_t most, double low,
-                         double high)
+/* Reads the words after the first, which are `least` to `most` numbers. */
+static int read_numbers(struct reading *reading, uint32_t least, uint32_t most, double low,
+                        double high)
 {
     char wrong[80];
     if (reading->words - 1 < least || reading->words - 1 > most) {
@@ -116,16 +119,10 @@ static int check_numbers(const struct reading *reading, uint32_t least, uint32_t
         return refuse(reading, 0, wrong);
     }
     for (uint32_t i = 1; i < reading->words; i++) {
-        if (check_number(reading, i, low, high) != 0)
+        if (read_number(reading, i, low, high) != 0)
             return -1;
     }
     return 0;
-}
-
-/* Returns the value of a word that check_numbers() has accepted. */
-static double number_of(const struct reading *reading, uint32_t index)
-{
-    return strtod(reading->word[index].text, NULL);
 }
 
 /* Copies the one name that follows the first word. */
@@ -248,13 +245,13 @@ static int read_color(struct reading *reading)
     struct obj_file *file = reading->file;
     if (file->materials == 0)
         return refuse(reading, 0, "stands before any newmtl");
-    if (check_numbers(reading, 3, 3, 0.0, 1.0) != 0)
+    if (read_numbers(reading, 3, 3, 0.0, 1.0) != 0)
         return -1;
     if (is_word(&reading->word[0], "Kd")) {
         struct obj_file_material *material = &file->material[file->materials - 1];
         material->colored = true;
         for (uint32_t i = 0; i < 3; i++)
-            material->kd[i] = number_of(reading, 1 + i);
+            material->kd[i] = reading->number[i];
     }
     return 0;
 }
@@ -263,7 +260,7 @@ static int read_shine(struct reading *reading)
 {
     if (reading->file->materials == 0)
         return refuse(reading, 0, "stands before any newmtl");
-    return check_numbers(reading, 1, 1, 0.0, 1000.0);
+    return read_numbers(reading, 1, 1, 0.0, 1000.0);
 }
 
 static int read_library(struct obj_file *file, const struct source *source,
@@ -300,10 +297,10 @@ static int read_vertex(struct reading *reading)
     struct obj_file *file = reading->file;
     if (file->vertices == OBJ_FILE_VERTICES_MAX)
         return refuse_many(reading, "vertices", OBJ_FILE_VERTICES_MAX);
-    if (check_numbers(reading, 3, 3, -OBJ_FILE_EXTENT_MAX, OBJ_FILE_EXTENT_MAX) != 0)
+    if (read_numbers(reading, 3, 3, -OBJ_FILE_EXTENT_MAX, OBJ_FILE_EXTENT_MAX) != 0)
         return -1;
     file->vertex[file->vertices++] = (struct model_vertex){
-        (float)number_of(reading, 1), (float)number_of(reading, 2), (float)number_of(reading, 3)};
+        (float)reading->number[0], (float)reading->number[1], (float)reading->number[2]};
     return 0;
 }
 
@@ -311,14 +308,14 @@ static int read_texture(struct reading *reading)
 {
     if (reading->textures++ == OBJ_FILE_DATA_MAX)
         return refuse_many(reading, "texture places", OBJ_FILE_DATA_MAX);
-    return check_numbers(reading, 2, 3, -1e6, 1e6);
+    return read_numbers(reading, 2, 3, -1e6, 1e6);
 }
 
 static int read_normal(struct reading *reading)
 {
     if (reading->normals++ == OBJ_FILE_DATA_MAX)
         return refuse_many(reading, "normals", OBJ_FILE_DATA_MAX);
-    return check_numbers(reading, 3, 3, -1e6, 1e6);
+    return read_numbers(reading, 3, 3, -1e6, 1e6);
 }
 
 static int read_smooth(struct reading *reading)
