@@ -331,16 +331,21 @@ static void go_together(const struct aircraft_parting *parting, struct response_
     }
 }
 
-/* Returns how far the steps displace a row [m]. */
+struct vec3 aircraft_parting_step(const struct aircraft_parting *parting,
+                                  const struct response_context *context, uint32_t index)
+{
+    const struct level_motion *pushed = &parting->level[index].pushed;
+    double dt_s = world_dt_s(context->world);
+    return (struct vec3){pushed->x * dt_s, 0.0, pushed->z * dt_s};
+}
+
+/* Returns how far the steps displace a body [m]. */
 static struct vec3 step_of(const struct aircraft_parting *parting,
                            const struct response_context *context, uint32_t index)
 {
-    const struct aircraft_body *body = &parting->body[index];
-    double dt_s = world_dt_s(context->world);
-    if (body->level == 0)
-        return (struct vec3){0.0, 0.0, 0.0};
-    const struct level_motion *pushed = &parting->level[body->level - 1].pushed;
-    return (struct vec3){pushed->x * dt_s, 0.0, pushed->z * dt_s};
+    const uint32_t level = parting->body[index].level;
+    return level == 0 ? (struct vec3){0.0, 0.0, 0.0}
+                      : aircraft_parting_step(parting, context, level - 1);
 }
 
 /* Adds up the ways without steps, and the momenta, of those that go together. */

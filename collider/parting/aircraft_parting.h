@@ -71,6 +71,10 @@ void aircraft_parting_run(struct aircraft_parting *parting, struct response_cont
 void aircraft_parting_share(struct aircraft_parting *parting, struct response_context *context,
                             struct free_bodies *bodies);
 
+/* Returns how far the row at an index of level goes in the frame to make way [m]. */
+struct vec3 aircraft_parting_step(const struct aircraft_parting *parting,
+                                  const struct response_context *context, uint32_t index);
+
 /* Returns what is known of a row that is listed. */
 struct aircraft_body *aircraft_parting_body(const struct aircraft_parting *parting, uint32_t row);
 

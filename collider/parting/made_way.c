@@ -14,21 +14,13 @@
 #define HALVED_MOST 3u
 #define ROUNDING_M  1e-9
 
-/* Returns how far the row at an index of level goes in the frame to make way [m]. */
-static struct vec3 step_of(const struct aircraft_parting *parting,
-                           const struct response_context *context, uint32_t index)
-{
-    const struct level_motion *pushed = &parting->level[index].pushed;
-    double dt_s = world_dt_s(context->world);
-    return (struct vec3){pushed->x * dt_s, 0.0, pushed->z * dt_s};
-}
-
 /* Puts a row so far on its step: a share of it. */
 static void put_at(struct aircraft_parting *parting, const struct response_context *context,
                    uint32_t index, double share)
 {
     struct aircraft_body *body = aircraft_parting_body(parting, parting->level_row[index]);
-    body->body.path.at = vec3_add(body->home, vec3_scale(step_of(parting, context, index), share));
+    body->body.path.at =
+        vec3_add(body->home, vec3_scale(aircraft_parting_step(parting, context, index), share));
 }
 
 /* Returns true if a pair has less room than bodies at rest keep, where both are put: the search for
@@ -73,7 +65,7 @@ static bool draw_back(struct aircraft_parting *parting, const struct response_co
                       uint32_t index, bool ended)
 {
     struct level_motion *pushed = &parting->level[index].pushed;
-    double far_m = vec3_length(step_of(parting, context, index));
+    double far_m = vec3_length(aircraft_parting_step(parting, context, index));
     uint32_t row = parting->level_row[index];
     if (!makes_way(parting, index) || far_m <= ROOM_M)
         return false;
@@ -164,8 +156,9 @@ static void find_home(struct aircraft_parting *parting, const struct response_co
     double keep = knows_all(parting, context, row) ? kept_of(context, row) : 0.0;
     pushed->x *= keep;
     pushed->z *= keep;
-    aircraft_parting_body(parting, row)->home = vec3_sub(
-        entities_position(&context->next->entities, row), step_of(parting, context, index));
+    aircraft_parting_body(parting, row)->home =
+        vec3_sub(entities_position(&context->next->entities, row),
+                 aircraft_parting_step(parting, context, index));
 }
 
 void made_way_settle(struct aircraft_parting *parting, struct response_context *context)
