@@ -395,6 +395,17 @@ void broad_phase_expect_queries(struct broad_phase *broad, uint32_t queries)
     query_index_build(&broad->index, bins, broad->sweepers);
 }
 
+bool broad_phase_has_records(const struct broad_phase *broad, uint32_t rows)
+{
+    for (uint32_t w = 0; broad->index.built && w * 64 < rows; w++) {
+        uint64_t used = UINT64_MAX >> (rows - w * 64 < 64 ? 64 - (rows - w * 64) : 0);
+        /* A row that cruises and begins nothing is held, and has no record. */
+        if (used & (~broad->binned[w] | (broad->cruise.held[w] & ~broad->resting.awake[w])))
+            return false;
+    }
+    return broad->index.built;
+}
+
 void broad_phase_query(const struct broad_phase *broad, const struct method_input *input,
                        const struct path_box *box, struct pair_list *found)
 {

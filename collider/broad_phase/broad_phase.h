@@ -96,6 +96,10 @@ uint64_t broad_phase_found_most(const struct world *world);
  * the same rows without it, but read every record of a strip. One thread. */
 void broad_phase_expect_queries(struct broad_phase *broad, uint32_t queries);
 
+/* Returns true if many queries are expected, and each row of this frame that is in use has a record
+ * in a bin: near_rows_find() then tells of all of them. */
+bool broad_phase_has_records(const struct broad_phase *broad, uint32_t rows);
+
 /* After broad_phase_pairs: adds every row whose box (broad->box) meets this box as pair.a, each
  * once, ascending; pair.b is 0. A row with a long path is found only near the path. found must have
  * room for broad_phase_found_most() pairs. */

@@ -88,11 +88,24 @@ void query_index_build(struct query_index *index, const struct strip_bins *const
     }
 }
 
+const struct bin_record *query_index_strip(const struct query_index *index, uint32_t strip,
+                                           uint32_t *count)
+{
+    uint32_t from = index->first[strip * QUERY_INDEX_COLUMNS];
+    *count = index->first[(strip + 1) * QUERY_INDEX_COLUMNS] - from;
+    return index->record + from;
+}
+
+const struct bin_record *query_index_end(const struct query_index *index, uint32_t strip, int32_t x)
+{
+    return index->record + index->first[cell_of(strip, x) + 1];
+}
+
 const struct bin_record *query_index_from(const struct query_index *index, uint32_t strip,
                                           int32_t min_x, int32_t max_x, uint32_t *count)
 {
     int32_t west = min_x > index->widest ? min_x - index->widest : 0;
     uint32_t from = index->first[cell_of(strip, west)];
-    *count = index->first[cell_of(strip, max_x) + 1] - from;
+    *count = (uint32_t)(query_index_end(index, strip, max_x) - (index->record + from));
     return index->record + from;
 }

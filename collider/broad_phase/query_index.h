@@ -34,6 +34,14 @@ void query_index_touch(const struct query_index *index, uint32_t rows);
 void query_index_build(struct query_index *index, const struct strip_bins *const *bins,
                        uint32_t count);
 
+/* Returns all records of a strip, and how many there are. */
+const struct bin_record *query_index_strip(const struct query_index *index, uint32_t strip,
+                                           uint32_t *count);
+
+/* Returns the end of the records of a strip that begin in the column of x [steps] or before it. */
+const struct bin_record *query_index_end(const struct query_index *index, uint32_t strip,
+                                         int32_t x);
+
 /* Returns the records of a strip that begin where a record with these edges [steps] may meet them,
  * and how many there are. */
 const struct bin_record *query_index_from(const struct query_index *index, uint32_t strip,

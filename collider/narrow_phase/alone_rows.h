@@ -5,6 +5,7 @@
 
 #include "collider/motion/pair_filter.h"
 
+#include <stdatomic.h>
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -16,6 +17,7 @@ struct alone_rows {
     struct thread_pool *workers; /* the caller's; NULL: one thread */
     struct pair_list *near;      /* [threads] what a worker's query has found */
     bool *alone;                 /* [capacity of the world] of the rows that were asked for */
+    _Atomic uint8_t *company;    /* [capacity of the world] 1: something may be near the row */
 };
 
 /* Returns 0, or -1 with errno ENOMEM. */

@@ -139,14 +139,15 @@ void contact_queue_end(struct contact_queue *contacts)
 {
     const struct pair *pair = contacts->pair;
     uint32_t *head = contacts->head;
-    uint8_t *known = contacts->apart.known;
     for (uint32_t i = 0; i < contacts->pair_count; i++)
         remember(contacts, i);
     for (uint32_t i = 0, count = contacts->pair_count; i < count; i++) {
         uint32_t a = pair[i].a, b = pair[i].b & PAIR_FIXED ? a : pair[i].b;
         head[a] = head[b] = 0;
-        known[a] = known[b] = 0; /* as pair_apart_forget() does */
+        pair_apart_let_go(&contacts->apart, a);
+        pair_apart_let_go(&contacts->apart, b);
     }
+    pair_apart_end(&contacts->apart);
     gap_memory_settle(&contacts->gaps);
 }
 
@@ -175,8 +176,9 @@ static bool search_axis(struct contact_queue *contacts, uint32_t index, double f
 /* Returns true for two rows on the paths with which the frame began, and whose poses are known. */
 static bool may_remember(const struct contact_queue *contacts, const struct pair *pair, double from)
 {
-    return from == 0.0 && !(pair->b & PAIR_FIXED) && !contacts->apart.row[pair->a].freely &&
-           !contacts->apart.row[pair->b].freely;
+    return from == 0.0 && !(pair->b & PAIR_FIXED) &&
+           !pair_apart_pose(&contacts->apart, pair->a)->freely &&
+           !pair_apart_pose(&contacts->apart, pair->b)->freely;
 }
 
 /* Returns how far the points of a row come within the frame by rotation, at most [m]. */
@@ -193,7 +195,8 @@ static bool comes_short(struct contact_queue *contacts, uint32_t index, double f
     struct pair_known *known = &contacts->known[index];
     if (!may_remember(contacts, pair, from))
         return false;
-    const struct row_pose *a = &contacts->apart.row[pair->a], *b = &contacts->apart.row[pair->b];
+    const struct row_pose *a = pair_apart_pose(&contacts->apart, pair->a);
+    const struct row_pose *b = pair_apart_pose(&contacts->apart, pair->b);
     struct vec3 along = vec3_sub(b->body.path.along, a->body.path.along);
     struct gap_bounds gap = gap_memory_recall(&contacts->gaps, pair, &a->body, &b->body);
     known->apart_m = maths_max(known->apart_m, gap.least_m);
@@ -206,8 +209,8 @@ static void remember_gap(struct contact_queue *contacts, const struct pair *pair
 {
     if (!may_remember(contacts, pair, from) || !gap_memory_wants(&contacts->gaps, pair))
         return;
-    const struct swept_body *a = &contacts->apart.row[pair->a].body;
-    const struct swept_body *b = &contacts->apart.row[pair->b].body;
+    const struct swept_body *a = &pair_apart_pose(&contacts->apart, pair->a)->body;
+    const struct swept_body *b = &pair_apart_pose(&contacts->apart, pair->b)->body;
     double gap_m = time_of_impact_gap_up_to(a, b, 0.0, NEAR_M);
     gap_memory_note(&contacts->gaps, pair, a, b, gap_m, NEAR_M);
 }
@@ -231,7 +234,7 @@ static bool lies_still(const struct contact_queue *contacts, uint32_t side)
 {
     if (side & PAIR_FIXED)
         return true;
-    const struct row_pose *pose = &contacts->apart.row[side];
+    const struct row_pose *pose = pair_apart_pose(&contacts->apart, side);
     struct vec3 along = pose->body.path.along;
     return along.x == 0.0 && along.y == 0.0 && along.z == 0.0 && pose->rate == 0.0 && !pose->freely;
 }

@@ -29,7 +29,7 @@ bool contact_rests_on(const struct contact_input *input, const struct contact *c
 static struct vec3 level_velocity(const struct contact_queue *contacts, uint32_t row, double hz,
                                   double x, double z)
 {
-    const struct row_pose *pose = &contacts->apart.row[row];
+    const struct row_pose *pose = pair_apart_pose(&contacts->apart, row);
     double spin = pose->spin_y * hz;
     return (struct vec3){pose->body.path.along.x * hz + spin * z, 0.0,
                          pose->body.path.along.z * hz - spin * x};

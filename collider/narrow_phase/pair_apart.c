@@ -11,9 +11,10 @@ int pair_apart_init(struct pair_apart *apart, const struct world *world)
 {
     uint32_t rows = world->params->capacity;
     *apart = (struct pair_apart){.world = world,
-                                 .row = reserve_take(rows, sizeof *apart->row),
+                                 .pose = reserve_take(rows, sizeof *apart->pose),
+                                 .place = reserve_take(rows, sizeof *apart->place),
                                  .known = reserve_take(rows, sizeof *apart->known)};
-    if (apart->row && apart->known)
+    if (apart->pose && apart->place && apart->known)
         return 0;
     pair_apart_free(apart);
     return -1;
@@ -21,14 +22,15 @@ int pair_apart_init(struct pair_apart *apart, const struct world *world)
 
 void pair_apart_free(struct pair_apart *apart)
 {
-    reserve_free(apart->row);
+    reserve_free(apart->pose);
+    reserve_free(apart->place);
     reserve_free(apart->known);
     *apart = (struct pair_apart){0};
 }
 
 void pair_apart_prepare(struct pair_apart *apart, const struct body_motion *motion, uint32_t row)
 {
-    struct row_pose *pose = &apart->row[row];
+    struct row_pose *pose = &apart->pose[apart->place[row] - 1];
     struct free_turn turn;
     body_motion_put(motion, row, &turn, &pose->body);
     pose->freely = pose->body.turn != NULL;
@@ -77,13 +79,13 @@ static const struct axis_side *side_from(const struct row_pose *pose, double tim
 bool pair_apart_stays(const struct pair_apart *apart, const struct pair *pair, double time,
                       double margin_m, bool nearest, struct vec3 *axis, double *apart_m)
 {
-    const struct row_pose *a = &apart->row[pair->a], *b = NULL;
+    const struct row_pose *a = pair_apart_pose(apart, pair->a), *b = NULL;
     struct row_pose fixed;
     if (pair->b & PAIR_FIXED) {
         fixed = fixed_pose(apart, pair->b & ~PAIR_FIXED);
         b = &fixed;
     } else {
-        b = &apart->row[pair->b];
+        b = pair_apart_pose(apart, pair->b);
     }
     *apart_m = margin_m;
     if (spheres_stay(&a->body, &b->body, time, margin_m))

@@ -17,11 +17,15 @@ int begun_bodies_init(struct begun_bodies *bodies, const struct world *world)
 {
     uint32_t rows = world->params->capacity;
     *bodies = (struct begun_bodies){.body = reserve_take(rows, sizeof *bodies->body),
-                                    .known = calloc(rows, sizeof *bodies->known),
+                                    .from = reserve_take(rows, sizeof *bodies->from),
+                                    .place = calloc(rows, sizeof *bodies->place),
+                                    .vacant = reserve_take(rows, sizeof *bodies->vacant),
                                     .version = calloc(rows, sizeof *bodies->version),
-                                    .from = calloc(rows, sizeof *bodies->from),
-                                    .row = reserve_take(rows, sizeof *bodies->row)};
-    if (bodies->body && bodies->known && bodies->version && bodies->from && bodies->row)
+                                    .known = calloc(rows, sizeof *bodies->known),
+                                    .row = reserve_take(rows, sizeof *bodies->row),
+                                    .before = reserve_take(rows, sizeof *bodies->before)};
+    if (bodies->body && bodies->from && bodies->place && bodies->vacant && bodies->version &&
+        bodies->known && bodies->row && bodies->before)
         return 0;
     begun_bodies_free(bodies);
     errno = ENOMEM;
@@ -31,17 +35,32 @@ int begun_bodies_init(struct begun_bodies *bodies, const struct world *world)
 void begun_bodies_free(struct begun_bodies *bodies)
 {
     reserve_free(bodies->body);
-    free(bodies->known);
+    reserve_free(bodies->from);
+    free(bodies->place);
+    reserve_free(bodies->vacant);
     free(bodies->version);
-    free(bodies->from);
+    free(bodies->known);
     reserve_free(bodies->row);
+    reserve_free(bodies->before);
     *bodies = (struct begun_bodies){0};
+}
+
+/* Gives a row a place, of which nothing is known. */
+static void give_place(struct begun_bodies *bodies, uint32_t row)
+{
+    uint32_t place =
+        bodies->vacant_count > 0 ? bodies->vacant[--bodies->vacant_count] : bodies->places++;
+    bodies->from[place].known = 0;
+    bodies->place[row] = place + 1;
 }
 
 void begun_bodies_list(struct begun_bodies *bodies, uint32_t row)
 {
-    if (!bodies->known[row])
-        bodies->row[bodies->count++] = row;
+    if (bodies->known[row])
+        return;
+    if (bodies->place[row] == 0)
+        give_place(bodies, row);
+    bodies->row[bodies->count++] = row;
     bodies->known[row] = 1;
 }
 
@@ -74,7 +93,7 @@ static bool is_same(const struct begun_from *from, const struct begun_from *befo
 static void find_body(const struct job *job, uint32_t row)
 {
     struct body_motion *motion = job->context->motion;
-    struct begun_body *body = &job->bodies->body[row];
+    struct begun_body *body = &job->bodies->body[job->bodies->place[row] - 1];
     body_motion_note_poses(motion, row);
     body_motion_put(motion, row, &body->turn, &body->body);
     body->began = level_gap_turn(&body->body, 0.0);
@@ -88,7 +107,7 @@ static void find_some(void *context, uint32_t first, uint32_t end, uint32_t work
     (void)worker;
     for (uint32_t i = job->first + first; i < job->first + end; i++) {
         uint32_t row = job->bodies->row[i];
-        struct begun_from *before = &job->bodies->from[row];
+        struct begun_from *before = &job->bodies->from[job->bodies->place[row] - 1];
         const struct begun_from from = from_of(job->context->motion, row);
         if (is_same(&from, before))
             continue;
@@ -108,8 +127,18 @@ void begun_bodies_find(struct begun_bodies *bodies, const struct response_contex
 
 void begun_bodies_forget(struct begun_bodies *bodies)
 {
+    uint32_t *before = bodies->before;
+    for (uint32_t i = 0; i < bodies->before_count; i++) {
+        if (bodies->known[before[i]])
+            continue;
+        bodies->vacant[bodies->vacant_count++] = bodies->place[before[i]] - 1;
+        bodies->place[before[i]] = 0;
+    }
     for (uint32_t i = 0; i < bodies->count; i++)
         bodies->known[bodies->row[i]] = 0;
+    bodies->before = bodies->row;
+    bodies->before_count = bodies->count;
+    bodies->row = before;
     bodies->count = bodies->found = 0;
 }
 
@@ -118,7 +147,7 @@ const struct begun_body *begun_bodies_side(const struct begun_bodies *bodies,
                                            struct begun_body *room)
 {
     if (!(side & PAIR_FIXED))
-        return &bodies->body[side];
+        return begun_bodies_row(bodies, side);
     *room = (struct begun_body){.body = body_motion_fixed(motion->world, side & ~PAIR_FIXED)};
     room->began = level_gap_turn(&room->body, 0.0);
     return room;

@@ -29,14 +29,22 @@ struct begun_from {
     uint16_t known; /* 1: a body has been found from it */
 };
 
+/* A row has a place for its body from the frame in which it is listed to the first one in which it
+ * is not. Few rows of a large world are, and a place for each would touch pages of memory for each.
+ */
 struct begun_bodies {
-    struct begun_body *body; /* [capacity of the world] */
-    struct begun_from *from; /* [capacity of the world] of the body that was found last */
+    struct begun_body *body; /* [capacity of the world] by place */
+    struct begun_from *from; /* [capacity of the world] by place, of the body that was found last */
+    uint32_t *place;         /* [capacity of the world] place + 1, 0: the row has none */
+    uint32_t *vacant;        /* places below `places` that no row has */
+    uint32_t vacant_count, places;
     /* [capacity of the world] how often a row's body has been another one than before: what was
      * measured of a body with the same number is true of it. */
     uint64_t *version;
-    uint8_t *known; /* [capacity of the world] 1: the row's body has been found in this frame */
-    uint32_t *row;  /* the rows of which it has */
+    uint8_t *known;   /* [capacity of the world] 1: the row is listed in this frame */
+    uint32_t *row;    /* the rows that are */
+    uint32_t *before; /* those that were in the frame before */
+    uint32_t before_count;
     uint32_t count, found; /* rows, and those of which the body has been found */
 };
 
@@ -51,8 +59,15 @@ void begun_bodies_list(struct begun_bodies *bodies, uint32_t row);
 void begun_bodies_find(struct begun_bodies *bodies, const struct response_context *context,
                        struct thread_pool *workers);
 
-/* Forgets all: paths change. */
+/* Forgets which rows are listed: paths change, or the frame ends. One thread. */
 void begun_bodies_forget(struct begun_bodies *bodies);
+
+/* Returns the body of a listed row. Any thread. */
+static inline const struct begun_body *begun_bodies_row(const struct begun_bodies *bodies,
+                                                        uint32_t row)
+{
+    return &bodies->body[bodies->place[row] - 1];
+}
 
 /* Returns one side of a pair: a row that has been found, or a fixed object with PAIR_FIXED, which
  * is made in room; a row needs none (NULL). Any thread. */

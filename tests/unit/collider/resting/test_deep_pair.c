@@ -23,7 +23,8 @@ static bool measure(const struct response_context *context, struct resting_gap *
     begun_bodies_list(&begun, 0);
     begun_bodies_list(&begun, 1);
     begun_bodies_find(&begun, context, NULL);
-    bool deep = deep_pair_measure(context, &pair, &begun.body[0], &begun.body[1], found);
+    bool deep = deep_pair_measure(context, &pair, begun_bodies_row(&begun, 0),
+                                  begun_bodies_row(&begun, 1), found);
     begun_bodies_free(&begun);
     return deep;
 }
@@ -175,7 +176,8 @@ static uint32_t deep_in_crowd(const struct response_context *context)
     begun_bodies_find(&begun, context, NULL);
     for (uint32_t i = 0; i < CROWD * CROWD; i++) {
         const struct pair pair = {i / CROWD, i % CROWD};
-        const struct begun_body *a = &begun.body[pair.a], *b = &begun.body[pair.b];
+        const struct begun_body *a = begun_bodies_row(&begun, pair.a);
+        const struct begun_body *b = begun_bodies_row(&begun, pair.b);
         struct resting_gap found = {.gap = found.few};
         struct level_gap deepest;
         if (pair.a >= pair.b || !deep_pair_measure(context, &pair, a, b, &found))
