@@ -100,7 +100,8 @@ uint32_t resting_records_note(struct resting_records *resting, uint32_t block,
         resting->kept[word] &= ~moves;
         resting->moved[word] |= moves | held[word];
         bin[w] = below(word, resting->rows) & ~resting->kept[word] & (moves | ~held[word]);
-        count += (uint32_t)__builtin_popcountll(bin[w]);
+        if (bin[w] != 0) /* a call where the processor may not count bits */
+            count += (uint32_t)__builtin_popcountll(bin[w]);
     }
     return count;
 }

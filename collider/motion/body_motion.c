@@ -56,21 +56,30 @@ static struct body_axis axis_of(const struct world *world, const struct kind *ki
     return axis;
 }
 
+#define WORD_ROWS 64u
+
+static uint32_t words_of(uint32_t rows)
+{
+    return (rows + WORD_ROWS - 1) / WORD_ROWS;
+}
+
 int body_motion_init(struct body_motion *motion, const struct world *world)
 {
-    uint32_t capacity = world->params->capacity;
+    uint32_t capacity = world->params->capacity, words = words_of(capacity);
     *motion = (struct body_motion){.world = world};
     motion->path = malloc(capacity * sizeof *motion->path);
-    motion->computed = calloc(capacity, sizeof *motion->computed);
+    motion->computed = calloc(words, WORD_ROWS * sizeof *motion->computed);
     motion->change = calloc(capacity, sizeof *motion->change);
     motion->changed = reserve_take(capacity, sizeof *motion->changed);
     motion->row = reserve_take(capacity, sizeof *motion->row);
     motion->parting_rps = calloc(capacity, sizeof *motion->parting_rps);
-    motion->fall = calloc(capacity, sizeof *motion->fall);
+    motion->fall = calloc(words, WORD_ROWS * sizeof *motion->fall);
+    motion->known = calloc(words, sizeof *motion->known);
     motion->pose = reserve_take(2 * (uint64_t)capacity, sizeof *motion->pose);
     motion->begins = reserve_take(capacity, sizeof *motion->begins);
     if (!motion->path || !motion->computed || !motion->change || !motion->changed || !motion->row ||
-        !motion->parting_rps || !motion->fall || !motion->pose || !motion->begins) {
+        !motion->parting_rps || !motion->fall || !motion->known || !motion->pose ||
+        !motion->begins) {
         body_motion_free(motion);
         return -1;
     }
@@ -88,6 +97,7 @@ void body_motion_free(struct body_motion *motion)
     reserve_free(motion->row);
     free(motion->parting_rps);
     free(motion->fall);
+    free(motion->known);
     reserve_free(motion->pose);
     reserve_free(motion->begins);
     *motion = (struct body_motion){0};
@@ -105,14 +115,25 @@ void body_motion_touch(const struct body_motion *motion, uint32_t rows)
         prefault_own(motion->begins, rows * sizeof *motion->begins);
 }
 
+/* Forgets what the last frame found out of rows: in a large world of few. */
+static void forget_known(const struct body_motion *motion)
+{
+    for (uint32_t w = 0; w < words_of(motion->world->params->capacity); w++) {
+        if (atomic_load_explicit(&motion->known[w], memory_order_relaxed) == 0)
+            continue;
+        atomic_store_explicit(&motion->known[w], 0, memory_order_relaxed);
+        memset(&motion->computed[(size_t)w * WORD_ROWS], 0, WORD_ROWS * sizeof *motion->computed);
+        memset(&motion->fall[(size_t)w * WORD_ROWS], 0, WORD_ROWS * sizeof *motion->fall);
+    }
+}
+
 void body_motion_begin(struct body_motion *motion, const struct state *committed,
                        const struct state *next, const struct crater_index *craters)
 {
     for (uint32_t i = 0; i < motion->changes; i++)
         motion->change[motion->row[i]] = 0;
     motion->changes = 0;
-    memset(motion->computed, 0, next->head->used * sizeof *motion->computed);
-    memset(motion->fall, 0, next->head->used * sizeof *motion->fall);
+    forget_known(motion);
     motion->committed = committed;
     motion->next = next;
     motion->craters = craters;
@@ -314,6 +335,7 @@ void body_motion_compute(struct body_motion *motion, uint32_t row)
         note_begin(motion, row);
     motion->path[row] = body_motion_path(motion, row);
     motion->computed[row] = 1;
+    body_motion_note_known(motion, row);
 }
 
 static const struct quat no_turn = {1.0, 0.0, 0.0, 0.0};

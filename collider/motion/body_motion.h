@@ -13,6 +13,7 @@
 #include "world/state.h"
 #include "world/world.h"
 
+#include <stdatomic.h>
 #include <stdint.h>
 
 /* Rotations at path.since and at 1. */
@@ -48,6 +49,7 @@ struct body_motion {
     bool models;                   /* bodies collide by their models, not as spheres */
     struct path *path;             /* [capacity] of the rows whose path has been computed */
     uint8_t *computed;             /* [capacity] 1: its path has been computed */
+    _Atomic uint8_t *known;        /* [words] 1: computed or fall of one of its 64 rows is set */
     struct rotation_path *changed; /* rotations that responses changed */
     uint32_t changes;
     uint32_t *change; /* [capacity] index + 1 into changed; 0: rotates as the mover has it */
@@ -109,6 +111,12 @@ struct body_line body_motion_standing_line(const struct body_motion *motion, uin
 /* Returns a path for the box around what is left of the stretch of a row that cruises in this
  * frame: it begins where the frame does, and its heights hold those of the ground between. */
 struct path body_motion_stretch(const struct body_motion *motion, uint32_t row);
+
+/* Notes that computed or fall of the row is set in this frame. Any thread. */
+static inline void body_motion_note_known(const struct body_motion *motion, uint32_t row)
+{
+    atomic_store_explicit(&motion->known[row / 64], 1, memory_order_relaxed);
+}
 
 /* Computes the row's path if that has not been done yet. */
 static inline void body_motion_require(struct body_motion *motion, uint32_t row)

@@ -45,17 +45,23 @@ static bool falls(const struct body_motion *motion, uint32_t row)
     return motion->next->entities.row[row].state == ENTITY_WRECK && free_fall_only(motion, row);
 }
 
+static void set_fall(const struct body_motion *motion, uint32_t row, uint8_t fall)
+{
+    motion->fall[row] = fall;
+    body_motion_note_known(motion, row);
+}
+
 double free_fall_left_mps(const struct body_motion *motion, uint32_t row, double time)
 {
-    uint8_t *fall = &motion->fall[row];
+    const uint8_t *fall = &motion->fall[row];
     if (*fall == FALL_UNKNOWN)
-        *fall = falls(motion, row) ? FALL_FREE : FALL_NONE;
+        set_fall(motion, row, falls(motion, row) ? FALL_FREE : FALL_NONE);
     return *fall == FALL_FREE ? GRAVITY_MPS2 * world_dt_s(motion->world) * (1.0 - time) : 0.0;
 }
 
 void free_fall_ahead(const struct body_motion *motion, uint32_t row)
 {
-    motion->fall[row] = FALL_AHEAD;
+    set_fall(motion, row, FALL_AHEAD);
 }
 
 double free_fall_unearned_mps(const struct body_motion *motion, uint32_t row, double time)

@@ -433,10 +433,16 @@ static bool move_entries(struct neighbour_index *index)
 
 static uint32_t count_awake(const struct neighbour_index_frame *frame)
 {
-    uint32_t resting = 0;
-    for (uint32_t first = 0; frame->resting && first < frame->used; first += 64)
-        resting += (uint32_t)__builtin_popcountll(frame->resting[first / 64]);
-    return frame->used - (resting < frame->used ? resting : frame->used);
+    uint32_t awake = 0;
+    if (!frame->resting)
+        return frame->used;
+    for (uint32_t first = 0; first < frame->used; first += 64) {
+        uint64_t there = UINT64_MAX >> (frame->used - first < 64 ? 64 - (frame->used - first) : 0);
+        uint64_t bits = there & ~frame->resting[first / 64];
+        if (bits != 0) /* a call where the processor may not count bits */
+            awake += (uint32_t)__builtin_popcountll(bits);
+    }
+    return awake;
 }
 
 void neighbour_index_update(struct neighbour_index *index,
