@@ -342,54 +342,84 @@ static void see_craters(const struct step_context *context, uint32_t i, struct l
     }
 }
 
+/* Returns how far a vehicle may be above or below, from middle to middle, and still be in the way.
+ */
+static double apart_of(const struct look *look, const struct kind *other)
+{
+    if (look->kind->domain == DOMAIN_LAND && other->domain == DOMAIN_LAND)
+        return INFINITY; /* a road down a slope leads to one that is far below */
+    return 0.5 * (look->kind->height_m + other->height_m) + look->gap;
+}
+
+/* Returns false if a vehicle is certainly in nobody's way, by what the index knows of it. */
+static bool concerns(const struct step_context *context, uint32_t i, const struct look *look,
+                     const struct neighbour_index_entry *at)
+{
+    const struct entity *row = &context->m->row[i];
+    double reach = context->avoidance->reach_m[at->kind];
+    double dx = (double)at->x - row->x, dz = (double)at->z - row->z;
+    double vx = (double)at->vx, vz = (double)at->vz;
+    double apart = apart_of(look, &context->world->kinds[at->kind]);
+    if (at->row == i || fabs((double)at->y - row->y) > apart + AVOIDANCE_ROUNDED_M)
+        return false;
+    return look->step != PRESENT || may_meet(look, 0, dx, dz, vx, vz, reach) ||
+           may_meet(look, PRESENT, dx, dz, vx, vz, reach);
+}
+
+/* Limits the directions by a vehicle that may be in the way. */
 static void see_vehicle(const struct step_context *context, uint32_t i, struct look *look,
                         const struct neighbour_index_entry *at)
 {
     const struct entities *m = context->m, *w = &context->committed->entities;
-    const struct kind *other = &context->world->kinds[at->kind];
-    double apart = 0.5 * (look->kind->height_m + other->height_m) + look->gap;
-    if (look->kind->domain == DOMAIN_LAND && other->domain == DOMAIN_LAND)
-        apart = INFINITY; /* a road down a slope leads to one that is far below */
-    double reach = context->avoidance->reach_m[at->kind];
-    double dx = (double)at->x - m->row[i].x, dz = (double)at->z - m->row[i].z;
-    double vx = (double)at->vx, vz = (double)at->vz;
-    uint32_t j = at->row;
-    if (j == i || fabs((double)at->y - m->row[i].y) > apart + AVOIDANCE_ROUNDED_M)
-        return;
-    if (look->step == PRESENT && !may_meet(look, 0, dx, dz, vx, vz, reach) &&
-        !may_meet(look, PRESENT, dx, dz, vx, vz, reach))
-        return;
-    struct vec3 off = vec3_sub(step_context_position(context, w, j), entities_position(m, i));
-    struct vec3 velocity = step_context_velocity(context, w, j);
+    struct vec3 off = vec3_sub(step_context_position(context, w, at->row), entities_position(m, i));
+    struct vec3 velocity = step_context_velocity(context, w, at->row);
     const double square = velocity.x * velocity.x + velocity.z * velocity.z;
     if (look->passes_standing && square < ROOM_AROUND_STANDS_MPS * ROOM_AROUND_STANDS_MPS)
         return;
-    if (fabs(off.y) <= apart)
-        limit_by_moving(look, off.x, off.z, velocity.x, velocity.z, reach);
+    if (fabs(off.y) <= apart_of(look, &context->world->kinds[at->kind]))
+        limit_by_moving(look, off.x, off.z, velocity.x, velocity.z,
+                        context->avoidance->reach_m[at->kind]);
 }
 
-#define NEAR_ENTRIES 32u /* that are looked at together */
+#define SEEN_TOGETHER 16u
 
-/* Sees those of a list that are within a distance. Their rows are asked for before they are read.
- */
+/* Vehicles whose rows have been asked for, and are seen together when they have come. */
+struct seen {
+    const struct neighbour_index_entry *entry[SEEN_TOGETHER];
+    uint32_t count;
+};
+
+static void see_all(const struct step_context *context, uint32_t i, struct look *look,
+                    struct seen *seen)
+{
+    for (uint32_t n = 0; n < seen->count; n++)
+        see_vehicle(context, i, look, seen->entry[n]);
+    seen->count = 0;
+}
+
+static void take(const struct step_context *context, uint32_t i, struct look *look,
+                 struct seen *seen, const struct neighbour_index_entry *entry)
+{
+    if (!concerns(context, i, look, entry))
+        return;
+    entity_prefetch_pose(&context->committed->entities.row[entry->row]);
+    seen->entry[seen->count++] = entry;
+    if (seen->count == SEEN_TOGETHER)
+        see_all(context, i, look, seen);
+}
+
+/* Sees those of a list that are within a distance. */
 static void see_listed(const struct step_context *context, uint32_t i, struct look *look,
                        const struct neighbour_list *list, double most)
 {
     const struct neighbour_index_entry *entry = &context->neighbour_lists->entries[list->first];
-    const struct neighbour_index_entry *near[NEAR_ENTRIES];
     const struct entity *row = &context->m->row[i];
-    uint32_t count = 0;
+    struct seen seen = {.count = 0};
     for (const struct neighbour_index_entry *end = entry + list->count; entry < end; entry++) {
-        if (!neighbour_index_within(entry, row->x, row->z, most * most))
-            continue;
-        entity_prefetch_pose(&context->committed->entities.row[entry->row]);
-        near[count++] = entry;
-        for (uint32_t n = 0; count == NEAR_ENTRIES && n < count; n++)
-            see_vehicle(context, i, look, near[n]);
-        count %= NEAR_ENTRIES;
+        if (neighbour_index_within(entry, row->x, row->z, most * most))
+            take(context, i, look, &seen, entry);
     }
-    for (uint32_t n = 0; n < count; n++)
-        see_vehicle(context, i, look, near[n]);
+    see_all(context, i, look, &seen);
 }
 
 static void see_vehicles(const struct step_context *context, uint32_t i, struct look *look)
@@ -406,8 +436,10 @@ static void see_vehicles(const struct step_context *context, uint32_t i, struct 
     }
     struct neighbour_query query = neighbour_query_begin(context->neighbours, NEIGHBOUR_INDEX_ALL,
                                                          m->row[i].x, m->row[i].z, most);
+    struct seen seen = {.count = 0};
     while ((entry = neighbour_query_next(&query)) != NULL)
-        see_vehicle(context, i, look, entry);
+        take(context, i, look, &seen, entry);
+    see_all(context, i, look, &seen);
 }
 
 /* Returns the way in direction k, with the room that the vehicle needs. */

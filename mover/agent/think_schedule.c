@@ -136,10 +136,29 @@ static void sort(const struct step_context *context, const struct row_block *blo
 
 /* --- decisions and shots -----------------------------------------------------------------------*/
 
+#define CELLS_AHEAD   6u /* from the prefetch of an agent's cell of neighbours to its decision */
+#define ENTRIES_AHEAD 3u /* and from that of the entries */
+
+/* Asks for what decisions to come read of the agents' neighbours. */
+static void prefetch_neighbours(const struct step_context *context,
+                                const struct think_schedule *thinkers, uint32_t n)
+{
+    const struct entity *row = context->m->row;
+    if (n + CELLS_AHEAD < thinkers->count) {
+        const struct entity *later = &row[thinkers->row[n + CELLS_AHEAD]];
+        neighbour_index_prefetch_cell(context->neighbours, later->x, later->z);
+    }
+    if (n + ENTRIES_AHEAD < thinkers->count) {
+        const struct entity *next = &row[thinkers->row[n + ENTRIES_AHEAD]];
+        neighbour_index_prefetch_entries(context->neighbours, next->x, next->z);
+    }
+}
+
 static void think(const struct step_context *context, const struct think_schedule *thinkers)
 {
     for (uint32_t n = 0; n < thinkers->count; n++) {
         struct desired_motion desired;
+        prefetch_neighbours(context, thinkers, n);
         agent_think(context, thinkers->row[n], &desired);
     }
 }

@@ -528,3 +528,23 @@ bool neighbour_query_next_span(struct neighbour_query *query)
     } while (next_layers(query));
     return false;
 }
+
+/* Returns where the entries of the cell of a place begin. */
+static const uint32_t *cell_at(const struct neighbour_index *index, double x, double z)
+{
+    return index->start + (uint32_t)cell_axis(index, z) * index->stride +
+           (uint32_t)cell_axis(index, x) * NEIGHBOUR_INDEX_LAYERS;
+}
+
+void neighbour_index_prefetch_cell(const struct neighbour_index *index, double x, double z)
+{
+    __builtin_prefetch(cell_at(index, x, z));
+}
+
+void neighbour_index_prefetch_entries(const struct neighbour_index *index, double x, double z)
+{
+    const unsigned char *entry = (const unsigned char *)(index->entries + *cell_at(index, x, z));
+    __builtin_prefetch(entry);
+    __builtin_prefetch(entry + 64);
+    __builtin_prefetch(entry + 128);
+}

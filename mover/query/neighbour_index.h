@@ -188,4 +188,9 @@ neighbour_query_next(struct neighbour_query *query)
     return NULL;
 }
 
+/* Ask the processor for what a query around a place reads first: the cell, and when that has come,
+ * its entries. */
+void neighbour_index_prefetch_cell(const struct neighbour_index *index, double x, double z);
+void neighbour_index_prefetch_entries(const struct neighbour_index *index, double x, double z);
+
 #endif
