@@ -139,14 +139,19 @@ static void sort(const struct step_context *context, const struct row_block *blo
 #define CELLS_AHEAD   6u /* from the prefetch of an agent's cell of neighbours to its decision */
 #define ENTRIES_AHEAD 3u /* and from that of the entries */
 
-/* Asks for what decisions to come read of the agents' neighbours. */
-static void prefetch_neighbours(const struct step_context *context,
-                                const struct think_schedule *thinkers, uint32_t n)
+#define AHEAD_S 3.0 /* it looks at the ground so far on its way, and at that between */
+
+/* Asks for what decisions to come read of the agents' neighbours, and of the ground. */
+static void prefetch_around(const struct step_context *context,
+                            const struct think_schedule *thinkers, uint32_t n)
 {
     const struct entity *row = context->m->row;
     if (n + CELLS_AHEAD < thinkers->count) {
         const struct entity *later = &row[thinkers->row[n + CELLS_AHEAD]];
+        const struct terrain *terrain = &context->world->terrain;
         neighbour_index_prefetch_cell(context->neighbours, later->x, later->z);
+        terrain_prefetch(terrain, later->x, later->z);
+        terrain_prefetch(terrain, later->x + AHEAD_S * later->vx, later->z + AHEAD_S * later->vz);
     }
     if (n + ENTRIES_AHEAD < thinkers->count) {
         const struct entity *next = &row[thinkers->row[n + ENTRIES_AHEAD]];
@@ -158,7 +163,7 @@ static void think(const struct step_context *context, const struct think_schedul
 {
     for (uint32_t n = 0; n < thinkers->count; n++) {
         struct desired_motion desired;
-        prefetch_neighbours(context, thinkers, n);
+        prefetch_around(context, thinkers, n);
         agent_think(context, thinkers->row[n], &desired);
     }
 }

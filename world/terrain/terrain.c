@@ -16,6 +16,15 @@ static inline uint32_t cell_of(const struct terrain *terrain, double metres, dou
     return cell;
 }
 
+void terrain_prefetch(const struct terrain *terrain, double x, double z)
+{
+    double u, v;
+    const float *north =
+        terrain->posts + (size_t)cell_of(terrain, z, &v) * terrain->side + cell_of(terrain, x, &u);
+    __builtin_prefetch(north);
+    __builtin_prefetch(north + terrain->side);
+}
+
 /* Returns the height, and how much it rises over a cell to the east and to the south. */
 static inline double base_plane(const struct terrain *terrain, double x, double z, double *east,
                                 double *south)

@@ -39,6 +39,9 @@ struct terrain {
     struct gridsquares squares; /* how the world is divided; the posts reach from edge to edge */
 };
 
+/* Asks the processor for the posts around a point, whose height is asked for soon. */
+void terrain_prefetch(const struct terrain *terrain, double x, double z);
+
 /* Height of the uncratered ground [m], with its earthworks. */
 double terrain_base_height(const struct terrain *terrain, double x, double z);
 

@@ -333,6 +333,22 @@ static double free_of(const struct step_context *context, uint32_t i, uint32_t o
     return most_s;
 }
 
+#define FOUND_TOGETHER 16u
+
+/* Aircraft whose rows have been asked for, and are read together when they have come. */
+struct found {
+    uint32_t row[FOUND_TOGETHER], count;
+};
+
+static double free_of_all(const struct step_context *context, uint32_t i, struct found *found,
+                          double free_s, double most_s)
+{
+    for (uint32_t n = 0; n < found->count; n++)
+        free_s = maths_min(free_s, free_of(context, i, found->row[n], most_s));
+    found->count = 0;
+    return free_s;
+}
+
 /* The index holds another one where its stretch ends. */
 uint32_t even_flight_frames(const struct step_context *context, uint32_t i, uint32_t frames)
 {
@@ -341,6 +357,7 @@ uint32_t even_flight_frames(const struct step_context *context, uint32_t i, uint
     const double ends_s = context->dt_s * (double)context->cruise_frames;
     const double fastest_mps = context->world->kinds[m->row[i].kind].max_speed_mps;
     const struct neighbour_index_entry *at;
+    struct found found = {.count = 0};
     double free_s = most_s;
     if (frames <= context->cruise_short || frames <= context->think_frames)
         return frames;
@@ -348,9 +365,14 @@ uint32_t even_flight_frames(const struct step_context *context, uint32_t i, uint
         neighbour_query_begin(context->neighbours, NEIGHBOUR_INDEX_LIVING, m->row[i].x, m->row[i].z,
                               (2.0 * most_s + ends_s) * fastest_mps);
     while ((at = neighbour_query_next(&query)) != NULL) {
-        if (at->row != i && context->world->kinds[at->kind].domain == DOMAIN_AIR)
-            free_s = maths_min(free_s, free_of(context, i, at->row, most_s));
+        if (at->row == i || context->world->kinds[at->kind].domain != DOMAIN_AIR)
+            continue;
+        entity_prefetch_pose(&context->committed->entities.row[at->row]);
+        found.row[found.count++] = at->row;
+        if (found.count == FOUND_TOGETHER)
+            free_s = free_of_all(context, i, &found, free_s, most_s);
     }
+    free_s = free_of_all(context, i, &found, free_s, most_s);
     const uint32_t least = context->think_frames > context->cruise_short ? context->think_frames
                                                                          : context->cruise_short;
     const double left = (free_s - AHEAD_S) / context->dt_s;
