@@ -55,29 +55,17 @@ bool chassis_holds(const struct kind *kind, double friction, const struct chassi
            fabs(across) <= weight * drivetrain_lateral(kind, friction);
 }
 
-/* Returns the slope of the ground between two points of the row, at this distance in front and to
- * the right of its middle and as far on the other side [rad]. */
-static double slope_between(const struct step_context *context, uint32_t i, double front_m,
-                            double right_m)
-{
-    const struct entities *m = context->m;
-    double sine, cosine;
-    maths_sincos(m->row[i].heading, &sine, &cosine);
-    double dx = front_m * sine + right_m * cosine, dz = right_m * sine - front_m * cosine;
-    return maths_atan2(kinematics_ground(context, m->row[i].x + dx, m->row[i].z + dz) -
-                           kinematics_ground(context, m->row[i].x - dx, m->row[i].z - dz),
-                       2.0 * (front_m + right_m));
-}
-
 /* A vehicle that is new stands level, whatever the ground. */
 static void take_slope(const struct step_context *context, uint32_t i)
 {
     struct entities *m = context->m;
-    const struct kind *kind = &context->world->kinds[m->row[i].kind];
     if (fabs(m->row[i].y - kinematics_ground(context, m->row[i].x, m->row[i].z)) > PLACED_M)
         return;
-    m->row[i].pitch = slope_between(context, i, 0.5 * kind->length_m, 0.0);
-    m->row[i].roll = -slope_between(context, i, 0.0, 0.5 * kind->width_m);
+    const struct rest_pose pose = rest_pose_of(&context->world->terrain, context->craters,
+                                               &context->world->kinds[m->row[i].kind], m->row[i].x,
+                                               m->row[i].z, m->row[i].heading);
+    m->row[i].pitch = pose.pitch_rad;
+    m->row[i].roll = pose.roll_rad;
 }
 
 /* Returns how long the row has been calm, in whole tenths of a second: a jolt counts for all of its

@@ -117,11 +117,17 @@ void ground_pose_find(const struct step_context *context, struct ground_pose *po
     if (context->craters->count > 0 || terrain->earthworks.count > 0)
         lift(context, pose);
     for (int h = 0; h < LANE_FOURS; h++) {
-        pitch_rise.f64x4[h] = height[FRONT].f64x4[h] - height[BACK].f64x4[h];
-        pitch_run.f64x4[h] = 2.0 * pose->half_length.f64x4[h];
-        roll_rise.f64x4[h] = height[LEFT].f64x4[h] - height[RIGHT].f64x4[h];
-        roll_run.f64x4[h] = 2.0 * pose->half_width.f64x4[h];
+        f64x4 rise = height[FRONT].f64x4[h] - height[BACK].f64x4[h];
+        f64x4 run = 2.0 * pose->half_length.f64x4[h];
+        pitch_rise.f64x4[h] = rise;
+        pitch_run.f64x4[h] = run;
+        roll_rise.f64x4[h] = (height[LEFT].f64x4[h] - height[RIGHT].f64x4[h]) * run;
+        roll_run.f64x4[h] = run * run + rise * rise;
     }
+    for (int l = 0; l < LANE_COUNT; l++)
+        roll_run.lane[l] = sqrt(roll_run.lane[l]);
+    for (int h = 0; h < LANE_FOURS; h++)
+        roll_run.f64x4[h] *= 2.0 * pose->half_width.f64x4[h];
     maths_slopes_lanes(&pitch_rise, &pitch_run, &pose->pitch);
     maths_slopes_lanes(&roll_rise, &roll_run, &pose->roll);
 }

@@ -15,10 +15,11 @@ struct rest_pose rest_pose_of(const struct terrain *terrain, const struct crater
     double right = terrain_height(terrain, craters, x + cosine * width, z + sine * width);
     double left = terrain_height(terrain, craters, x - cosine * width, z - sine * width);
     const struct crater_footing footing = {x, z, length, width, sine, cosine};
-    return (struct rest_pose){.y_m = terrain_height(terrain, craters, x, z) +
-                                     terrain_lift(terrain, craters, &footing),
-                              .pitch_rad = maths_atan2(front - back, 2.0 * length),
-                              .roll_rad = maths_atan2(left - right, 2.0 * width)};
+    const double rise = front - back, run = 2.0 * length;
+    return (struct rest_pose){
+        .y_m = terrain_height(terrain, craters, x, z) + terrain_lift(terrain, craters, &footing),
+        .pitch_rad = maths_atan2(rise, run),
+        .roll_rad = maths_atan2((left - right) * run, 2.0 * width * sqrt(run * run + rise * rise))};
 }
 
 #define ALONG  8 /* parts in which the length and the width are looked at, even numbers */

@@ -13,8 +13,9 @@ struct rest_pose {
 
 /* Returns how a land vehicle stands on the ground as the mover has it (mover/motion/ground_pose.h):
  * the height under its middle and the lift by craters, and the slopes between the heights under
- * front and back and under its sides. heading clockwise from north [rad];
- * craters NULL: there are none. */
+ * front and back and under its sides. The roll is about the body's own axis, which pitches, so its
+ * corners lie on a plane that it crosses slantwise. heading clockwise from north [rad]; craters
+ * NULL: there are none. */
 struct rest_pose rest_pose_of(const struct terrain *terrain, const struct crater_index *craters,
                               const struct kind *kind, double x, double z, double heading_rad);
 

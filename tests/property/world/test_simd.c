@@ -153,8 +153,10 @@ static void stand_on_ground(const struct step_context *context, uint32_t i)
     double back = kinematics_ground(context, x - length_x, z + length_z);
     double right = kinematics_ground(context, x + width_x, z + width_z);
     double left = kinematics_ground(context, x - width_x, z - width_z);
-    m->row[i].pitch = maths_atan2(front - back, 2.0 * half_length);
-    m->row[i].roll = maths_atan2(left - right, 2.0 * half_width);
+    const double rise = front - back, run = 2.0 * half_length;
+    m->row[i].pitch = maths_atan2(rise, run);
+    m->row[i].roll =
+        maths_atan2((left - right) * run, 2.0 * half_width * sqrt(run * run + rise * rise));
 }
 
 /* By how much craters differ under it, or how far earthworks bend under it [m]. */

@@ -85,11 +85,37 @@ static void test_signs_on_a_slope(void **state)
     fixture_close(&f);
 }
 
+/* The body's roll follows its pitch, so a vehicle that is slantwise on a steep plane lies on it:
+ * its corners are as high as the ground there. */
+static void test_corners_are_on_a_plane(void **state)
+{
+    (void)state;
+    fixture_open(&f, "");
+    steps_plane(&f, 0.6, 0.5);
+    const struct terrain *terrain = &f.view.world.terrain;
+    const struct kind *tank = &f.view.world.kinds[fixture_kind(&f, "tank")];
+    for (int i = 0; i < 16; i++) {
+        const double heading = i * TWO_PI / 16.0;
+        const struct rest_pose pose = rest_pose_of(terrain, NULL, tank, 25010.0, 25000.0, heading);
+        const struct mat3 turn =
+            rotation_matrix(rotation_of(heading, pose.pitch_rad, pose.roll_rad));
+        for (int n = 0; n < 4; n++) {
+            const struct vec3 corner = {(n & 1 ? 0.5 : -0.5) * tank->length_m, 0.0,
+                                        (n & 2 ? 0.5 : -0.5) * tank->width_m};
+            const struct vec3 at =
+                vec3_add((struct vec3){25010.0, pose.y_m, 25000.0}, rotation_apply(&turn, corner));
+            assert_true(fabs(at.y - terrain_height(terrain, NULL, at.x, at.z)) < 1e-3);
+        }
+    }
+    fixture_close(&f);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_it_is_the_pose_that_the_mover_gives),
         cmocka_unit_test(test_signs_on_a_slope),
+        cmocka_unit_test(test_corners_are_on_a_plane),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
