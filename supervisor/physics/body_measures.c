@@ -230,7 +230,8 @@ static double place_height(const struct stand *stand, struct vec3 place)
 }
 
 /* Returns the pose that a vehicle has on a ground by the heights under its middle and the middles
- * of its sides. */
+ * of its sides. Its right axis has the slope of those, and is at a right angle to its forward axis.
+ */
 static struct rigid_pose five_heights(const struct surface *surface, const struct body_look *body)
 {
     const struct surface_rectangle under = rectangle_under(body);
@@ -240,8 +241,9 @@ static struct rigid_pose five_heights(const struct surface *surface, const struc
     double fall = surface_height(surface, at.x - right.x, at.z - right.z) -
                   surface_height(surface, at.x + right.x, at.z + right.z);
     const struct vec3 stands = {at.x, surface_height(surface, at.x, at.z), at.z};
-    return rigid_pose_of(stands, body->now.heading, maths_atan2(rise, 2.0 * vec3_length(forward)),
-                         maths_atan2(fall, 2.0 * vec3_length(right)));
+    double pitch = maths_atan2(rise, 2.0 * vec3_length(forward));
+    double roll = maths_atan2(fall * maths_cos(pitch), 2.0 * vec3_length(right));
+    return rigid_pose_of(stands, body->now.heading, pitch, roll);
 }
 
 /* Returns how high a place is over the ground. One that would be in the ground without works and
