@@ -67,11 +67,12 @@ static struct solver_body solve_body_of(const struct response_context *context,
     uint32_t row = body->row;
     const struct mass_properties inertia =
         mass_properties_of(&context->world->kinds[e->row[row].kind]);
-    struct mat3 turn = rotation_matrix(body_motion_orientation(context->motion, row, time));
+    struct quat orientation = body_motion_orientation(context->motion, row, time);
+    struct mat3 turn = rotation_matrix(orientation);
     double light = 1.0 / inertia.mass_kg;
     body->grounded = path_change_grounded(context, row);
     body->flies = context->world->kinds[e->row[row].kind].domain == DOMAIN_AIR;
-    body->arm = rotation_apply(&turn, (struct vec3){0.0, inertia.centre_m, 0.0});
+    body->arm = path_change_arm(context, row, orientation);
     struct solver_body solve = {
         .centre = vec3_add(path_at(&context->path[row], time), body->arm),
     };

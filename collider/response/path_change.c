@@ -90,6 +90,22 @@ bool path_change_grounded(const struct response_context *context, uint32_t row)
            (!(e->row[row].flags & ENTITY_FLAG_CHASSIS) || stands(context, row));
 }
 
+bool path_change_on_course(const struct response_context *context, uint32_t row)
+{
+    const struct entities *e = &context->next->entities;
+    return e->row[row].state == ENTITY_ACTIVE && e->row[row].behaviour == BEHAVIOUR_HOLD &&
+           context->world->kinds[e->row[row].kind].domain != DOMAIN_AIR &&
+           path_change_grounded(context, row);
+}
+
+struct vec3 path_change_arm(const struct response_context *context, uint32_t row, struct quat turn)
+{
+    const struct kind *kind = &context->world->kinds[context->next->entities.row[row].kind];
+    const struct vec3 up = {0.0, mass_properties_of(kind).centre_m, 0.0};
+    const struct mat3 axes = rotation_matrix(turn);
+    return path_change_on_course(context, row) ? up : rotation_apply(&axes, up);
+}
+
 /* A land vehicle that is pushed moves on as a body on its springs. */
 static void disturb(struct response_context *context, uint32_t row)
 {

@@ -37,4 +37,14 @@ struct vec3 path_change_spin(const struct response_context *context, uint32_t ro
  * ground in whatever pose. */
 bool path_change_grounded(const struct response_context *context, uint32_t row);
 
+/* Returns true for a row that the ground supports and that only holds its course. The ground tilts
+ * it and lifts it, whatever presses on it, so for contacts its position moves on the map and it
+ * turns about the vertical. */
+bool path_change_on_course(const struct response_context *context, uint32_t row);
+
+/* Returns the centre of mass of a row with this rotation, from its position [m, world axes]. That
+ * of a row on its course counts as above its position, as if it stood level: its velocity is that
+ * of its position. */
+struct vec3 path_change_arm(const struct response_context *context, uint32_t row, struct quat turn);
+
 #endif

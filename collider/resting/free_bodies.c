@@ -102,6 +102,16 @@ static void begin_wreck(const struct response_context *context, struct free_side
     body->moved.velocity = vec3_add(centre, side->fall);
 }
 
+/* What holds its course goes with its position, and turns about the vertical. The tilt that the
+ * ground gives it presses on nobody: no impulse could slow it down. */
+static void begin_course(const struct response_context *context, const struct free_side *side,
+                         struct free_body *body)
+{
+    body->moved.spin = path_change_spin(context, side->row, 1.0);
+    body->moved.velocity =
+        vec3_scale(context->path[side->row].along, 1.0 / world_dt_s(context->world));
+}
+
 /* Any other body begins with the motion that it has had so far in this frame: that of its centre of
  * mass, which goes straight while the body turns about it. The path of a vehicle in the air has the
  * mean speed of the frame, which its weight makes faster until the end. */
@@ -186,7 +196,7 @@ static uint32_t body_for(struct free_bodies *bodies, const struct response_conte
         .at = entities_position(w, row),
         .parent = index};
     struct mat3 axes = rotation_matrix(side->turn);
-    side->arm = rotation_apply(&axes, (struct vec3){0.0, side->mass.centre_m, 0.0});
+    side->arm = path_change_arm(context, row, side->turn);
     *body = (struct free_body){.inverse_mass = 1.0 / side->mass.mass_kg};
     if (side->is_free) {
         body->inverse_inertia = mass_properties_inverse_world(&side->mass, &axes);
@@ -198,6 +208,8 @@ static uint32_t body_for(struct free_bodies *bodies, const struct response_conte
         begin_wreck(context, side, body);
     else if (side->piloted)
         begin_piloted(context, side, body);
+    else if (path_change_on_course(context, row))
+        begin_course(context, side, body);
     else
         begin_moved(context, side, body);
     return index;
