@@ -335,6 +335,15 @@ bool body_measures_held(const struct body_look *body)
     return follows && fabs(body->now.height_m) <= HELD_M && fabs(body->was->height_m) <= HELD_M;
 }
 
+/* Returns true if only the map's part of the body's way counts. One that is destroyed in this frame
+ * has followed the ground until then. */
+static bool goes_on_map(const struct body_look *body)
+{
+    bool destroyed = body->now.wreck && !body->was->wreck;
+    return body_measures_held(body) ||
+           (destroyed && body->kind->domain == DOMAIN_LAND && fabs(body->was->height_m) <= HELD_M);
+}
+
 static struct vec3 level(struct vec3 v, bool held)
 {
     return (struct vec3){v.x, held ? 0.0 : v.y, v.z};
@@ -350,7 +359,7 @@ static bool passes_on(const struct joined_bodies *group)
 
 static void measure_jump(struct measures *measures, double dt_s, const struct body_look *body)
 {
-    bool held = body_measures_held(body);
+    bool held = goes_on_map(body);
     struct vec3 way = level(vec3_sub(body->named.at, body->was->pose.at), held);
     double speed = maths_max(vec3_length(level(body->now.velocity, held)),
                              vec3_length(level(body->was->velocity, held)));

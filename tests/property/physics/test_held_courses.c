@@ -38,6 +38,16 @@ static const struct meeting meetings[] = {
      " edge_m = 1; height_m = 2; grade_percent = 80",
      "\"truck\"; at = [24267, 24292.21]; heading_deg = 109.7; speed_mps = 24", "hold",
      "\"flak\"; at = [24275.11, 24286.23]; heading_deg = 123.9; speed_mps = 24"},
+    /* One is destroyed in the frame in which a wall lifts it, or it goes down into a trench: its
+     * way up or down is no jump. */
+    {"\"table\"; at = [24296.3, 24454.1]; heading_deg = 180; length_m = 31.6; width_m = 5.8;"
+     " edge_m = 1; height_m = 2; grade_percent = 80",
+     "\"howitzer\"; at = [24283.74, 24458.57]; heading_deg = 57.7; speed_mps = 4", "hold",
+     "\"hamburger\"; at = [24335.49, 24477.78]; heading_deg = 301; speed_mps = 24"},
+    {"\"trench\"; at = [24454.9, 24600.2]; heading_deg = 45; length_m = 25.5; width_m = 6.8;"
+     " edge_m = 1; depth_m = 1.5",
+     "\"flak\"; at = [24473.81, 24586.62]; heading_deg = 240.3; speed_mps = 24", "hold",
+     "\"truck\"; at = [24437.38, 24621.14]; heading_deg = 35.2; speed_mps = 16"},
 };
 
 static void run(const struct meeting *meeting)
