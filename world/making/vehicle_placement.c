@@ -63,27 +63,39 @@ static bool follows(const struct vehicle_placement *placement, uint32_t slot)
     return placement->rank.group->formed && slot != placement->rank.leader;
 }
 
+/* Returns how high a vehicle with these angles has to be for its shell to be in no ground [m].
+ * least_y_m: it is not lower. */
+static double clear_height(const struct terrain *terrain, const struct kind *kind,
+                           const struct entity *row, const struct rest_pose *pose, double least_y_m)
+{
+    const struct mat3 turn =
+        rotation_matrix(rotation_of(row->heading, pose->pitch_rad, pose->roll_rad));
+    const struct vec3 at = {row->x, least_y_m, row->z};
+    return least_y_m + maths_max(0.0, vehicle_shell_depth(terrain, NULL, kind, VEHICLE_SHELL_POINTS,
+                                                          at, &turn));
+}
+
 /* A land vehicle stands on the ground as it will in the frames to come. Where the edges of works
- * are under it, it is let down on them from above, as a body on its springs. */
+ * are under it, it is let down on them as a body on its springs: leaning as five heights say or
+ * level, whichever of the two is lower. */
 static void set_on_ground(const struct world_build *built, uint32_t slot)
 {
     const struct terrain terrain = world_build_terrain(built);
-    const struct entities *e = &built->first;
-    const struct kind *kind = &built->scenario->kinds[e->row[slot].kind];
+    struct entity *row = &built->first.row[slot];
+    const struct kind *kind = &built->scenario->kinds[row->kind];
     double clear_y_m;
-    struct rest_pose pose =
-        rest_pose_of(&terrain, NULL, kind, e->row[slot].x, e->row[slot].z, e->row[slot].heading);
-    if (rest_pose_bends(&terrain, kind, e->row[slot].x, e->row[slot].z, e->row[slot].heading,
-                        &clear_y_m)) {
-        const struct mat3 level = rotation_matrix(rotation_of(e->row[slot].heading, 0.0, 0.0));
-        const struct vec3 at = {e->row[slot].x, clear_y_m, e->row[slot].z};
-        double deep = vehicle_shell_depth(&terrain, NULL, kind, VEHICLE_SHELL_POINTS, at, &level);
-        pose = (struct rest_pose){.y_m = clear_y_m + maths_max(0.0, deep)};
-        e->row[slot].flags |= ENTITY_FLAG_CHASSIS;
+    struct rest_pose pose = rest_pose_of(&terrain, NULL, kind, row->x, row->z, row->heading);
+    if (rest_pose_bends(&terrain, kind, row->x, row->z, row->heading, &clear_y_m)) {
+        struct rest_pose level = {.y_m = 0.0};
+        level.y_m = clear_height(&terrain, kind, row, &level, clear_y_m);
+        pose.y_m = clear_height(&terrain, kind, row, &pose,
+                                terrain_height(&terrain, NULL, row->x, row->z));
+        pose = level.y_m < pose.y_m ? level : pose;
+        row->flags |= ENTITY_FLAG_CHASSIS;
     }
-    e->row[slot].y = pose.y_m;
-    e->row[slot].pitch = pose.pitch_rad;
-    e->row[slot].roll = pose.roll_rad;
+    row->y = pose.y_m;
+    row->pitch = pose.pitch_rad;
+    row->roll = pose.roll_rad;
 }
 
 /* Returns the height of a vehicle over the ground. An aeroplane that holds its course flies into

@@ -178,26 +178,39 @@ static void test_vehicles_stand_on_slopes(void **state)
     fixture_close(&f);
 }
 
-/* A scenario may put a vehicle on the edge of a bank, across a trench, or beside them. It comes
- * down on an edge from above, level and on its springs, and else stands on the ground. */
+/* Returns how deep the shell of a row is in the ground [m]. */
+static double shell_depth_of(const struct entities *e, uint32_t row)
+{
+    const struct mat3 turn =
+        rotation_matrix(rotation_of(e->row[row].heading, e->row[row].pitch, e->row[row].roll));
+    return vehicle_shell_depth(&f.view.world.terrain, NULL, &f.view.world.kinds[e->row[row].kind],
+                               VEHICLE_SHELL_POINTS, entities_position(e, row), &turn);
+}
+
+/* A scenario may put a vehicle on the edge of a bank, on it, or beside it. On an edge it leans as
+ * the ground does and is on its springs, with its shell just out of the edge, and else it stands on
+ * the ground. */
 static void test_edges_of_works_bear_no_vehicle_as_a_plane_does(void **state)
 {
     (void)state;
     fixture_open(&f, "earthworks = ( { shape = \"table\"; at = [25000.0, 25000.0]; width_m = 30.0;"
                      " length_m = 30.0; height_m = 1.5; edge_m = 0.3; } );"
-                     "vehicles = ( { name = \"edge\"; kind = \"tank\"; at = [25000.0, 24985.0];"
+                     "vehicles = ( { name = \"edge\"; kind = \"tank\"; at = [25000.0, 25015.0];"
                      " heading_deg = 0.0; behaviour = \"idle\"; },"
                      " { name = \"top\"; kind = \"tank\"; at = [25000.0, 25000.0];"
                      " heading_deg = 0.0; behaviour = \"idle\"; },"
                      " { name = \"beside\"; kind = \"tank\"; at = [25030.0, 25000.0];"
                      " heading_deg = 0.0; behaviour = \"idle\"; } );");
-    const struct state now = fixture_state(&f);
-    const double y[] = {101.5, 101.5, 100.0};
-    for (uint32_t i = 0; i < 3; i++) {
-        check_near(now.entities.row[i].y, y[i]);
-        check_near(now.entities.row[i].pitch, 0.0);
-        assert_int_equal(now.entities.row[i].flags & ENTITY_FLAG_CHASSIS,
-                         i == 0 ? ENTITY_FLAG_CHASSIS : 0);
+    const struct entities e = fixture_state(&f).entities;
+    assert_true(e.row[0].flags & ENTITY_FLAG_CHASSIS);
+    assert_true(e.row[0].pitch > 0.1 && fabs(e.row[0].roll) < 1e-9);
+    assert_true(e.row[0].y > 100.0 && e.row[0].y < 101.0);
+    assert_true(shell_depth_of(&e, 0) < 1e-9);
+    const double y[] = {101.5, 100.0};
+    for (uint32_t i = 1; i < 3; i++) {
+        check_near(e.row[i].y, y[i - 1]);
+        check_near(e.row[i].pitch, 0.0);
+        assert_false(e.row[i].flags & ENTITY_FLAG_CHASSIS);
     }
     fixture_close(&f);
 }
@@ -211,10 +224,7 @@ static void test_no_thin_wall_stands_in_a_vehicle(void **state)
                      "vehicles = ( { kind = \"tank\"; at = [25000.0, 25002.3];"
                      " heading_deg = 0.0; behaviour = \"idle\"; } );");
     const struct entities e = fixture_state(&f).entities;
-    const struct mat3 level = rotation_matrix(rotation_of(e.row[0].heading, 0.0, 0.0));
-    double deep =
-        vehicle_shell_depth(&f.view.world.terrain, NULL, &f.view.world.kinds[e.row[0].kind],
-                            VEHICLE_SHELL_POINTS, entities_position(&e, 0), &level);
+    double deep = shell_depth_of(&e, 0);
     assert_true(e.row[0].flags & ENTITY_FLAG_CHASSIS && deep < 1e-9 && deep > -0.5);
     fixture_close(&f);
 }
