@@ -56,7 +56,7 @@ int end_guard_init(struct end_guard *guard, const struct world *world, struct th
     if (guard->pair && guard->stands && guard->posed && guard->posed_row && guard->row &&
         guard->back && guard->touched && guard->listed && guard->marked && guard->sent_back &&
         guard->drawn && drift_guard_init(&guard->drifting, world) == 0 &&
-        level_exit_init(&guard->exit) == 0)
+        tangled_wrecks_init(&guard->tangled, world) == 0 && level_exit_init(&guard->exit) == 0)
         return 0;
     end_guard_free(guard);
     errno = ENOMEM;
@@ -66,6 +66,7 @@ int end_guard_init(struct end_guard *guard, const struct world *world, struct th
 void end_guard_free(struct end_guard *guard)
 {
     drift_guard_free(&guard->drifting);
+    tangled_wrecks_free(&guard->tangled);
     level_exit_free(&guard->exit);
     reserve_free(guard->pair);
     reserve_free(guard->stands);
@@ -493,8 +494,10 @@ static void heed_ways(struct end_guard *guard, const struct response_context *co
 static void mark_deeper(struct end_guard *guard, const struct response_context *context)
 {
     for (uint32_t i = 0; i < guard->pair_count; i++) {
-        if (guard->pair[i].deeper)
-            mark_pair(guard, context, guard->pair[i].pair);
+        if (!guard->pair[i].deeper)
+            continue;
+        tangled_wrecks_note(&guard->tangled, context, guard->pair[i].pair);
+        mark_pair(guard, context, guard->pair[i].pair);
     }
     for (uint32_t i = 0; i < guard->count; i++) {
         if (guarded(context, guard->row[i]) &&
@@ -716,6 +719,7 @@ void end_guard_run(struct end_guard *guard, const struct resting *resting,
     while (guard->count > 0)
         run_round(guard, context);
     draw_all_back(guard, resting, context);
+    tangled_wrecks_go_on(&guard->tangled, context);
     for (uint32_t i = 0; i < guard->touched_count; i++) {
         if (guard->sent_back[guard->touched[i]] == SEND_BACK_MOST)
             held_rest_mark(context, guard->touched[i]);

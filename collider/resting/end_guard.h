@@ -8,6 +8,7 @@
 #include "collider/resting/drift_guard.h"
 #include "collider/resting/free_bodies.h"
 #include "collider/resting/resting.h"
+#include "collider/resting/tangled_wrecks.h"
 
 struct thread_pool;
 
@@ -43,6 +44,7 @@ struct end_guard {
     uint8_t *drawn; /* [capacity of the world] 1 + how often it had gone back, if it had made way
                        and was then drawn back, else 0 */
     struct drift_guard drifting;
+    struct tangled_wrecks tangled;
     struct level_exit exit; /* a search for ways out of bodies */
 };
 
