@@ -719,7 +719,7 @@ void end_guard_run(struct end_guard *guard, const struct resting *resting,
     while (guard->count > 0)
         run_round(guard, context);
     draw_all_back(guard, resting, context);
-    tangled_wrecks_go_on(&guard->tangled, context);
+    tangled_wrecks_go_on(&guard->tangled, context, guard->sent_back);
     for (uint32_t i = 0; i < guard->touched_count; i++) {
         if (guard->sent_back[guard->touched[i]] == SEND_BACK_MOST)
             held_rest_mark(context, guard->touched[i]);

@@ -1,6 +1,7 @@
 /* Groups of wrecks by union of the pairs that are deeper. */
 #include "collider/resting/tangled_wrecks.h"
 
+#include "collider/resting/send_back.h"
 #include "collider/response/path_change.h"
 #include "world/entity/mass_properties.h"
 #include "world/params.h"
@@ -105,7 +106,8 @@ void tangled_wrecks_note(struct tangled_wrecks *tangled, const struct response_c
 /* --- groups ------------------------------------------------------------------------------------*/
 
 static struct tangle sum_of(const struct tangled_wrecks *tangled,
-                            const struct response_context *context, uint32_t first)
+                            const struct response_context *context, const uint8_t *sent_back,
+                            uint32_t first)
 {
     struct tangle sum = {.wrecks = 0};
     for (uint32_t i = first; i < tangled->count; i++) {
@@ -114,6 +116,9 @@ static struct tangle sum_of(const struct tangled_wrecks *tangled,
         struct mat3 axes;
         if (first_of(tangled, i) != first)
             continue;
+        sum.held |= wreck->held;
+        if (sent_back[wreck->row] != SEND_BACK_MOST)
+            continue;
         double height_m =
             context->next->entities.row[wreck->row].y + arm_of(context, wreck->row, &mass, &axes).y;
         sum.wrecks++;
@@ -121,7 +126,6 @@ static struct tangle sum_of(const struct tangled_wrecks *tangled,
         sum.kinetic_j += wreck->kinetic_j;
         sum.raised_kgm += mass.mass_kg * (height_m - wreck->height_m);
         sum.momentum = vec3_add(sum.momentum, vec3_scale(wreck->velocity, mass.mass_kg));
-        sum.held |= wreck->held;
     }
     return sum;
 }
@@ -130,26 +134,29 @@ static struct tangle sum_of(const struct tangled_wrecks *tangled,
 static struct vec3 velocity_of(const struct tangle *sum)
 {
     const struct vec3 none = {0.0, 0.0, 0.0};
+    if (sum->held || sum->wrecks < 2)
+        return none;
     struct vec3 velocity = vec3_scale(sum->momentum, 1.0 / sum->mass_kg);
     double square = vec3_dot(velocity, velocity);
     double left_j = sum->kinetic_j - GRAVITY_MPS2 * sum->raised_kgm;
-    if (sum->held || sum->wrecks < 2 || square < SLOW_MPS * SLOW_MPS || left_j <= 0.0)
+    if (square < SLOW_MPS * SLOW_MPS || left_j <= 0.0)
         return none;
     double most = 2.0 * left_j / sum->mass_kg;
     return square <= most ? velocity : vec3_scale(velocity, sqrt(most / square));
 }
 
-void tangled_wrecks_go_on(struct tangled_wrecks *tangled, struct response_context *context)
+void tangled_wrecks_go_on(struct tangled_wrecks *tangled, struct response_context *context,
+                          const uint8_t *sent_back)
 {
     for (uint32_t first = 0; first < tangled->count; first++) {
         if (tangled->wreck[first].parent != first)
             continue;
-        const struct tangle sum = sum_of(tangled, context, first);
+        const struct tangle sum = sum_of(tangled, context, sent_back, first);
         const struct vec3 velocity = velocity_of(&sum);
         if (vec3_dot(velocity, velocity) == 0.0)
             continue;
         for (uint32_t i = first; i < tangled->count; i++) {
-            if (first_of(tangled, i) != first)
+            if (first_of(tangled, i) != first || sent_back[tangled->wreck[i].row] != SEND_BACK_MOST)
                 continue;
             table_set_velocity(&context->writer, tangled->wreck[i].row, velocity);
             table_set_spin(&context->writer, tangled->wreck[i].row, (struct vec3){0.0, 0.0, 0.0});

@@ -36,8 +36,10 @@ void tangled_wrecks_note(struct tangled_wrecks *tangled, const struct response_c
                          uint32_t pair);
 
 /* Gives the wrecks of each group that holds together their common velocity, and forgets the frame.
- * Their energy does not grow. Nothing is done with groups that touch anything else, because that
- * takes up momentum, and with slow ones, which come to rest. */
-void tangled_wrecks_go_on(struct tangled_wrecks *tangled, struct response_context *context);
+ * sent_back: [capacity of the world] how often each row has gone back; only wrecks that are where
+ * they began the frame are meant. Their energy does not grow. Nothing is done with groups that
+ * touch anything else, because that takes up momentum, and with slow ones, which come to rest. */
+void tangled_wrecks_go_on(struct tangled_wrecks *tangled, struct response_context *context,
+                          const uint8_t *sent_back);
 
 #endif

@@ -1,6 +1,7 @@
 /* Wrecks that go back because of each other keep their common momentum (rows 43, 46). */
 #include "collider/resting/tangled_wrecks.h"
 
+#include "collider/resting/send_back.h"
 #include "tests/support/steps.h"
 #include "world/entity/mass_properties.h"
 
@@ -8,6 +9,7 @@
 #include <stddef.h>
 #include <setjmp.h>
 #include <stdint.h>
+#include <string.h>
 
 #include <cmocka.h>
 
@@ -18,6 +20,7 @@ enum { JET, HELICOPTER, TRUCK, LYING, FLYING, ROWS };
 static struct fixture f;
 static struct response_context context;
 static struct tangled_wrecks tangled;
+static uint8_t sent_back[64];
 
 /* Three wrecks in the air, one on the ground, and a helicopter that flies. */
 static int open_world(void **state)
@@ -36,6 +39,7 @@ static int open_world(void **state)
     steps_rows(&f).row[LYING].vy = 0.0;
     steps_rows(&f).row[TRUCK].spin_x = 2.0;
     steps_respond(&f, &context);
+    memset(sent_back, SEND_BACK_MOST, sizeof sent_back);
     assert_int_equal(tangled_wrecks_init(&tangled, &f.view.world), 0);
     return 0;
 }
@@ -98,7 +102,7 @@ static void test_wrecks_in_the_air_go_on_together(void **state)
     note(JET, TRUCK);
     for (uint32_t i = JET; i <= TRUCK; i++)
         stop(i, 0.0);
-    tangled_wrecks_go_on(&tangled, &context);
+    tangled_wrecks_go_on(&tangled, &context, sent_back);
     assert_true(vec3_length(vec3_sub(momentum(3), before)) < 1e-9 * vec3_length(before));
     for (uint32_t i = HELICOPTER; i <= TRUCK; i++)
         assert_true(row(i)->vx == row(JET)->vx && row(i)->vy == row(JET)->vy &&
@@ -115,7 +119,7 @@ static void test_they_gain_no_energy_by_going_back(void **state)
     note(JET, HELICOPTER);
     stop(JET, FALL_M);
     stop(HELICOPTER, FALL_M);
-    tangled_wrecks_go_on(&tangled, &context);
+    tangled_wrecks_go_on(&tangled, &context, sent_back);
     double now = speed_of(JET) * speed_of(JET) + 2.0 * GRAVITY_MPS2 * FALL_M;
     assert_true(fabs(now - square) < 1e-9 * square);
 }
@@ -128,7 +132,7 @@ static void test_groups_that_touch_anything_else_stop(void **state)
         note(JET, HELICOPTER);
         note(HELICOPTER, others[n]);
         stop(JET, 0.0);
-        tangled_wrecks_go_on(&tangled, &context);
+        tangled_wrecks_go_on(&tangled, &context, sent_back);
         assert_true(speed_of(JET) == 0.0);
         row(JET)->vx = 80.0;
     }
@@ -141,8 +145,22 @@ static void test_slow_wrecks_come_to_rest(void **state)
     row(JET)->vz = row(HELICOPTER)->vz = row(HELICOPTER)->vy = 0.0;
     note(JET, HELICOPTER);
     stop(JET, 0.0);
-    tangled_wrecks_go_on(&tangled, &context);
+    tangled_wrecks_go_on(&tangled, &context, sent_back);
     assert_true(speed_of(JET) == 0.0);
+}
+
+static void test_wrecks_that_keep_a_part_of_their_way_do_not_count(void **state)
+{
+    struct vec3 part = entities_velocity(&context.next->entities, TRUCK), before = momentum(2);
+    (void)state;
+    note(HELICOPTER, TRUCK);
+    note(JET, TRUCK);
+    stop(JET, 0.0);
+    stop(HELICOPTER, 0.0);
+    sent_back[TRUCK] = SEND_BACK_HALF;
+    tangled_wrecks_go_on(&tangled, &context, sent_back);
+    assert_true(vec3_length(vec3_sub(momentum(2), before)) < 1e-9 * vec3_length(before));
+    assert_true(row(TRUCK)->vx == part.x && row(TRUCK)->vy == part.y && row(TRUCK)->vz == part.z);
 }
 
 /* The groups of a frame are not those of the frame before. */
@@ -151,10 +169,10 @@ static void test_a_frame_is_forgotten(void **state)
     (void)state;
     note(JET, HELICOPTER);
     note(HELICOPTER, FLYING);
-    tangled_wrecks_go_on(&tangled, &context);
+    tangled_wrecks_go_on(&tangled, &context, sent_back);
     note(JET, HELICOPTER);
     stop(JET, 0.0);
-    tangled_wrecks_go_on(&tangled, &context);
+    tangled_wrecks_go_on(&tangled, &context, sent_back);
     assert_true(speed_of(JET) > 0.0 && row(JET)->vx == row(HELICOPTER)->vx);
 }
 
@@ -167,6 +185,7 @@ int main(void)
         TEST(test_they_gain_no_energy_by_going_back),
         TEST(test_groups_that_touch_anything_else_stop),
         TEST(test_slow_wrecks_come_to_rest),
+        TEST(test_wrecks_that_keep_a_part_of_their_way_do_not_count),
         TEST(test_a_frame_is_forgotten),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
