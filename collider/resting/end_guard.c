@@ -296,6 +296,16 @@ static bool guarded(const struct response_context *context, uint32_t row)
             path_change_grounded(context, row));
 }
 
+/* Returns true for a row that has to stand on the ground where it is now: also one that is new in
+ * this frame, which an impact may have moved. */
+static bool is_set_on_ground(const struct response_context *context, uint32_t row)
+{
+    const struct entities *e = &context->next->entities;
+    bool fresh = !body_motion_old(context->motion, row) && e->row[row].state == ENTITY_ACTIVE &&
+                 e->row[row].behaviour != BEHAVIOUR_FLIGHT;
+    return (fresh || guarded(context, row)) && path_change_grounded(context, row);
+}
+
 /* Lists a row to be looked at. */
 static void look_at(struct end_guard *guard, uint32_t row)
 {
@@ -709,7 +719,7 @@ void end_guard_run(struct end_guard *guard, const struct resting *resting,
         look_at(guard, motion->row[i]);
     for (uint32_t i = 0; i < guard->count; i++) {
         uint32_t row = guard->row[i];
-        if (!free->owned[row] && guarded(context, row) && path_change_grounded(context, row))
+        if (!free->owned[row] && is_set_on_ground(context, row))
             ground_placement_put(context, row, entities_position(e, row), e->row[row].heading);
     }
     guard->moved = guard->count;

@@ -286,6 +286,16 @@ static void test_a_driver_who_holds_the_course_keeps_its_speed(void **state)
     assert_true(next()->row[0].x == WEST_M && next()->row[0].vx == 90.0);
 }
 
+/* An impact in the frame in which it appears has pressed it down. */
+static void test_a_new_vehicle_stands_on_the_ground(void **state)
+{
+    (void)state;
+    steps_replace(&f, &context, 2, 99);
+    next()->row[2].y -= 0.03;
+    run(1, (uint32_t[]){2});
+    assert_true(next()->row[2].y == FIXTURE_GROUND_M);
+}
+
 /* Puts the last tank beside the bank, on its springs, and moves it to the east in the frame. */
 static void move_beside_bank(double gap_m, double east_m)
 {
@@ -458,6 +468,7 @@ int main(void)
         TEST(test_a_vehicle_that_does_not_drive_goes_back_all_the_way),
         TEST(test_a_vehicle_that_drives_ends_no_deeper),
         TEST(test_a_body_that_went_back_can_send_back_the_next),
+        TEST(test_a_new_vehicle_stands_on_the_ground),
         TEST(test_no_vehicle_ends_deeper_in_a_bank),
         TEST(test_a_vehicle_may_leave_a_bank),
         TEST(test_a_driver_who_holds_the_course_keeps_its_speed),
