@@ -45,7 +45,9 @@ struct motion_look {
     bool sprung;                /* a vehicle on its springs, which need not be on the ground */
     bool courses;               /* a land vehicle that holds its course, and is not on them */
     bool grounded;              /* an aircraft or a wreck that may touch the ground */
-    bool at_rest;               /* a wreck that the mover leaves as it is, or that has not moved */
+    bool stood;                 /* a wreck that has not moved since the frame before */
+    bool at_rest;               /* a wreck that the mover leaves as it is, or that has not moved: in
+                                   two frames, if it was in the ground, which lifts it out */
 };
 
 /* Bodies that touch each other, directly or not (supervisor/physics/joined_bodies.h). */

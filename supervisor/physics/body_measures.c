@@ -300,7 +300,8 @@ void body_measures_ground(struct measures *measures, const struct ground_look *g
         body->now.springs = body->was->springs;
         if (body->now.sprung && !body->was->sprung)
             sprung_body_look(surface, body);
-        body->now.at_rest |= body->now.wreck;
+        body->now.stood = body->now.wreck;
+        body->now.at_rest |= body->now.stood && (body->now.lowest_m >= 0.0 || body->was->stood);
         return;
     }
     const struct surface_part part =

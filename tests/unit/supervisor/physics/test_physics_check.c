@@ -218,6 +218,18 @@ static void test_a_wreck_that_hangs_in_the_air(void **state)
     assert_false(measure_good(&check.measures, MEASURE_OF_WRECK_HEIGHT));
 }
 
+/* A neighbour may hold it for a frame. */
+static void test_a_wreck_that_is_lifted_out_of_the_ground_may_stand_for_a_frame(void **state)
+{
+    (void)state;
+    put_wreck(-0.3);
+    begin();
+    next();
+    assert_int_equal(check.measures.of[MEASURE_OF_WRECK_HEIGHT].taken, 0);
+    next();
+    is_bad(MEASURE_OF_WRECK_HEIGHT, 0.3);
+}
+
 static void test_a_wreck_that_moves_has_no_clearance(void **state)
 {
     uint32_t tank = put_wreck(0.3);
@@ -747,6 +759,7 @@ int main(void)
         TEST(test_a_wreck_at_rest_on_its_side),
         TEST(test_a_wreck_at_rest_in_the_air),
         TEST(test_a_wreck_that_hangs_in_the_air),
+        TEST(test_a_wreck_that_is_lifted_out_of_the_ground_may_stand_for_a_frame),
         TEST(test_a_wreck_that_moves_has_no_clearance),
         TEST(test_a_wreck_under_the_ground),
         TEST(test_a_vehicle_is_placed_level),
