@@ -265,15 +265,28 @@ double ground_contacts_taken(const struct ground_contacts *contacts, const struc
     return taken;
 }
 
+/* Returns the sum of the impulses along the normals [N s]. */
+static struct vec3 bearing_of(const struct ground_contacts *contacts)
+{
+    struct vec3 sum = {0.0, 0.0, 0.0};
+    for (uint32_t i = 0; i < contacts->count; i++)
+        sum = vec3_add(sum, vec3_scale(contacts->contact[i].axis[CONTACT_NORMAL],
+                                       contacts->contact[i].impulse_ns[CONTACT_NORMAL]));
+    return sum;
+}
+
+bool ground_contacts_too_steep(const struct ground_contacts *contacts)
+{
+    struct vec3 bearing = bearing_of(contacts);
+    return sqrt(bearing.x * bearing.x + bearing.z * bearing.z) > contacts->friction * bearing.y;
+}
+
 /* --- ploughing ---------------------------------------------------------------------------------*/
 
 void ground_contacts_plough(struct ground_contacts *contacts, struct rigid_body *body,
                             double impulse_ns)
 {
-    struct vec3 normal = {0.0, 0.0, 0.0};
-    for (uint32_t i = 0; i < contacts->count; i++)
-        normal = vec3_add(normal, vec3_scale(contacts->contact[i].axis[CONTACT_NORMAL],
-                                             contacts->contact[i].impulse_ns[CONTACT_NORMAL]));
+    struct vec3 normal = bearing_of(contacts);
     normal = vec3_scale(normal, 1.0 / vec3_length(normal));
     struct vec3 off = vec3_scale(normal, vec3_dot(body->velocity, normal));
     struct vec3 along = vec3_sub(body->velocity, off);

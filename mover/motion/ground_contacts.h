@@ -64,6 +64,9 @@ double ground_contacts_solve(struct ground_contacts *contacts, struct rigid_body
  * [J]. */
 double ground_contacts_taken(const struct ground_contacts *contacts, const struct rigid_body *body);
 
+/* Returns true if the ground that bears the body is steeper than the friction of its kind holds. */
+bool ground_contacts_too_steep(const struct ground_contacts *contacts);
+
 /* Slows a body that ploughs through the soil under this sum of impulses. */
 void ground_contacts_plough(struct ground_contacts *contacts, struct rigid_body *body,
                             double impulse_ns);

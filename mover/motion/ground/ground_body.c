@@ -9,16 +9,31 @@
 #define LIFT_DEPTH_M (2.0 * GROUND_CONTACTS_SLOP_M)
 #define LIFT_MPS     0.008 /* and so fast: the energy of its height comes from nothing */
 
+/* Moves a body that rounding alone has lifted, without lifting it: it slides where the ground is
+ * too steep for its friction, if that takes no energy. Elsewhere it stays. */
+static void slide_or_stay(const struct ground_contacts *contacts, struct rigid_body *body,
+                          const struct rigid_body *solved, double energy_j, double dt_s)
+{
+    struct rigid_body slid = *solved;
+    body->centre = solved->centre;
+    body->turn = solved->turn;
+    if (!ground_contacts_too_steep(contacts))
+        return;
+    slid.centre = vec3_add(slid.centre, vec3_scale(slid.velocity, dt_s));
+    rigid_body_turn(&slid, (struct vec3){0.0, 0.0, 0.0}, dt_s);
+    if (rigid_body_limit_energy(&slid, energy_j))
+        *body = slid;
+}
+
 /* Lifts a body less that has no energy for it, and turns it less if that would bring a point
  * deeper into the ground. solved: the body before it was moved. */
 static void lift_less(const struct ground_contacts *contacts, struct rigid_body *body,
                       const struct rigid_body *solved, struct vec3 push, struct vec3 twist,
-                      double dt_s)
+                      double energy_j, double dt_s)
 {
     struct rigid_body turned = *solved;
-    if (ground_contacts_depth(contacts) <= LIFT_DEPTH_M) { /* rounding alone has lifted it */
-        body->centre = solved->centre;
-        body->turn = solved->turn;
+    if (ground_contacts_depth(contacts) <= LIFT_DEPTH_M) {
+        slide_or_stay(contacts, body, solved, energy_j, dt_s);
         return;
     }
     push.y = maths_min(push.y, LIFT_MPS);
@@ -61,6 +76,6 @@ double ground_body_step(struct ground_contacts *contacts, struct rigid_body *bod
     body->centre = vec3_add(body->centre, vec3_scale(vec3_add(body->velocity, push), dt_s));
     rigid_body_turn(body, twist, dt_s);
     if (touches && !rigid_body_limit_energy(body, energy))
-        lift_less(contacts, body, &solved, push, twist, dt_s);
+        lift_less(contacts, body, &solved, push, twist, energy, dt_s);
     return taken;
 }

@@ -316,6 +316,23 @@ static void test_friction_holds_a_wreck_on_a_slope_or_lets_it_go(void **state)
     }
 }
 
+/* A wreck that begins in the ground, by so little that it is not lifted out, slides as well. */
+static void test_a_wreck_in_steep_ground_is_not_stuck(void **state)
+{
+    static const double depths_m[] = {0.0025, 0.003, 0.004, 0.008};
+    (void)state;
+    for (uint32_t n = 0; n < sizeof depths_m / sizeof *depths_m; n++) {
+        double slope = 1.2 * friction_of("tank"), normal_y = 1.0 / sqrt(1.0 + slope * slope);
+        steps_empty(&f);
+        steps_plane(&f, slope, 0.0);
+        uint32_t row = put("tank", 100.0 - depths_m[n] / normal_y, (struct vec3){0.0, 0.0, 0.0});
+        steps_rows(&f).row[row].heading = HALF_PI;
+        steps_rows(&f).row[row].pitch = maths_atan2(slope, 1.0);
+        fixture_run(&f, 5 * HZ);
+        assert_true(25000.0 - steps_rows(&f).row[row].x > 2.0);
+    }
+}
+
 static void test_a_crater_and_a_push_wake_a_wreck(void **state)
 {
     (void)state;
@@ -457,6 +474,7 @@ int main(void)
         TEST(test_overturned_is_overturned),
         TEST(test_a_jet_ploughs_to_a_halt_within_a_kilometre),
         TEST(test_friction_holds_a_wreck_on_a_slope_or_lets_it_go),
+        TEST(test_a_wreck_in_steep_ground_is_not_stuck),
         TEST(test_a_crater_and_a_push_wake_a_wreck),
         TEST(test_a_light_push_does_not_wake_a_wreck),
         TEST(test_an_aircraft_that_strikes_the_ground_hard_breaks_up),
