@@ -304,7 +304,7 @@ $(call objects,world/word_hash.c): CFLAGS_EXTRA = -O3
 # A heap's frame copies small structures without end, which gcc does by an instruction that begins
 # slowly if it is not told otherwise (docs/decisions/032-resting-contacts.md).
 UNROLLED = $(if $(and $(findstring gcc,$(CC)),$(filter x86_64-%,$(COMPILER))),-mstringop-strategy=unrolled_loop)
-$(call objects,$(call sources,$(addprefix collider/,geometry motion narrow_phase parting response resting solver))): \
+$(call objects,$(call sources,$(addprefix collider/,geometry guard motion narrow_phase parting response resting solver))): \
         CFLAGS_EXTRA = -O3 $(UNROLLED)
 $(call objects,$(KERNEL_SRC) tests/unit/renderer/soft/test_soft.c) $(KERNELS): CFLAGS_EXTRA = -Wno-psabi
 # What the topics say.

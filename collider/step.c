@@ -7,7 +7,7 @@
 #include "collider/resting/ground_placement.h"
 #include "collider/resting/held_rest.h"
 #include "collider/resting/sleeping_contacts.h"
-#include "collider/resting/turret_guard.h"
+#include "collider/guard/turret_guard.h"
 #include "collider/response/damage.h"
 #include "collider/response/debris_push.h"
 #include "collider/response/response.h"

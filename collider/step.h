@@ -15,7 +15,7 @@
 #include "collider/parting/sphere_parting.h"
 #include "collider/response/contact_table.h"
 #include "collider/response/island.h"
-#include "collider/resting/end_guard.h"
+#include "collider/guard/end_guard.h"
 #include "collider/resting/free_bodies.h"
 #include "collider/resting/resting.h"
 #include "collider/motion/body_motion.h"

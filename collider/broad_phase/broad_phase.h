@@ -97,7 +97,7 @@ uint64_t broad_phase_found_most(const struct world *world);
 void broad_phase_expect_queries(struct broad_phase *broad, uint32_t queries);
 
 /* Returns true if many queries are expected, and each row of this frame that is in use has a record
- * in a bin: near_rows_find() then tells of all of them. */
+ * in a bin: record_overlaps_find() then tells of all of them. */
 bool broad_phase_has_records(const struct broad_phase *broad, uint32_t rows);
 
 /* After broad_phase_pairs: adds every row whose box (broad->box) meets this box as pair.a, each

@@ -210,7 +210,7 @@ void body_motion_change(struct body_motion *motion, uint32_t row, const struct p
 
 /* Return the row, and a fixed object, as bodies for the narrow phase. A row that spins freely
  * points to *turn, which holds how. Turret and gun point as in the committed frame: they turn when
- * all bodies have moved (collider/resting/turret_guard.h). */
+ * all bodies have moved (collider/guard/turret_guard.h). */
 struct swept_body body_motion_body(const struct body_motion *motion, uint32_t row,
                                    struct free_turn *turn);
 struct swept_body body_motion_fixed(const struct world *world, uint32_t object);

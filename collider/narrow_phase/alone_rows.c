@@ -3,7 +3,7 @@
 #include "collider/narrow_phase/alone_rows.h"
 
 #include "collider/broad_phase/broad_phase.h"
-#include "collider/broad_phase/near_rows.h"
+#include "collider/broad_phase/record_overlaps.h"
 #include "collider/narrow_phase/contact_queue.h"
 #include "collider/narrow_phase/cruise_rows.h"
 #include "world/params.h"
@@ -92,7 +92,7 @@ static void compare_strips(void *context, uint32_t first, uint32_t end, uint32_t
     const struct broad_phase *broad = job->input->broad;
     (void)worker;
     for (uint32_t strip = first; strip < end; strip++)
-        near_rows_find(&broad->index, &broad->fixed_boxes, strip, job->rows->company);
+        record_overlaps_find(&broad->index, &broad->fixed_boxes, strip, job->rows->company);
 }
 
 /* Compares the records of all rows, if each row has one. */

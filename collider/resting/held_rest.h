@@ -1,5 +1,5 @@
 /* Vehicles that rest on their springs and partly on another body. Their springs would move them,
- * and the guard at the end of each frame (collider/resting/end_guard.h) puts them back: they stand
+ * and the guard at the end of each frame (collider/guard/end_guard.h) puts them back: they stand
  * still, and the contact that holds them is marked in the table. Pure; one thread. */
 #ifndef JOLON_COLLIDER_RESTING_HELD_REST_H
 #define JOLON_COLLIDER_RESTING_HELD_REST_H

@@ -1,6 +1,6 @@
 /* Turrets and guns in whole frames: what stops them, what they miss, and what they hit when their
  * tank drives. A building stands at 25000, 25000 with its long side, a plain wall, to the west. */
-#include "collider/resting/turret_guard.h"
+#include "collider/guard/turret_guard.h"
 
 #include "tests/support/steps.h"
 

@@ -1,5 +1,5 @@
 /* Each record is compared with those after it, up to the column of its east edge. */
-#include "collider/broad_phase/near_rows.h"
+#include "collider/broad_phase/record_overlaps.h"
 
 static void set_near(_Atomic uint8_t *near, const struct bin_record *record)
 {
@@ -17,8 +17,8 @@ static bool meets_fixed(const struct static_boxes *fixed_boxes, uint32_t strip,
     return false;
 }
 
-void near_rows_find(const struct query_index *index, const struct static_boxes *fixed_boxes,
-                    uint32_t strip, _Atomic uint8_t *near)
+void record_overlaps_find(const struct query_index *index, const struct static_boxes *fixed_boxes,
+                          uint32_t strip, _Atomic uint8_t *near)
 {
     uint32_t count;
     const struct bin_record *first = query_index_strip(index, strip, &count);

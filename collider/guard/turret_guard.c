@@ -1,6 +1,6 @@
 /* A sweep of one angle at a time, from the committed one to the mover's, against the row's pairs.
  */
-#include "collider/resting/turret_guard.h"
+#include "collider/guard/turret_guard.h"
 
 #include "collider/resting/contact_groups.h"
 #include "world/checksum.h"

@@ -1,12 +1,12 @@
 /* Rounds over lists of rows. A row that goes back is looked at again, in its new place. */
-#include "collider/resting/end_guard.h"
+#include "collider/guard/end_guard.h"
 
 #include "collider/geometry/level_gap.h"
 #include "collider/motion/pair_filter.h"
 #include "collider/resting/deep_pair.h"
 #include "collider/resting/ground_placement.h"
 #include "collider/resting/held_rest.h"
-#include "collider/resting/send_back.h"
+#include "collider/guard/send_back.h"
 #include "collider/response/path_change.h"
 #include "world/entity/persistent_contact.h"
 #include "world/params.h"

@@ -1,5 +1,5 @@
 /* Aircraft that nobody steers go back along their path, and keep their momenta (row 46). */
-#include "collider/resting/drift_guard.h"
+#include "collider/guard/drift_guard.h"
 
 #include "tests/support/steps.h"
 #include "world/entity/free_rotation.h"

@@ -1,8 +1,8 @@
 /* Aircraft that nobody steers, and that the guard at the frame's end sends back. They go back along
  * their own path, which conserves both momenta. Where that is not enough they go back to where they
  * began the frame, and what this has changed of their momenta is put back. Pure; one thread. */
-#ifndef JOLON_COLLIDER_RESTING_DRIFT_GUARD_H
-#define JOLON_COLLIDER_RESTING_DRIFT_GUARD_H
+#ifndef JOLON_COLLIDER_GUARD_DRIFT_GUARD_H
+#define JOLON_COLLIDER_GUARD_DRIFT_GUARD_H
 
 #include "collider/response/response_context.h"
 #include "collider/solver/contact_solver.h"

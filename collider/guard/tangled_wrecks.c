@@ -1,7 +1,7 @@
 /* Groups of wrecks by union of the pairs that are deeper. */
-#include "collider/resting/tangled_wrecks.h"
+#include "collider/guard/tangled_wrecks.h"
 
-#include "collider/resting/send_back.h"
+#include "collider/guard/send_back.h"
 #include "collider/response/path_change.h"
 #include "world/entity/mass_properties.h"
 #include "world/params.h"

@@ -1,7 +1,7 @@
 /* Wrecks that go back because of each other keep their common momentum (rows 43, 46). */
-#include "collider/resting/tangled_wrecks.h"
+#include "collider/guard/tangled_wrecks.h"
 
-#include "collider/resting/send_back.h"
+#include "collider/guard/send_back.h"
 #include "tests/support/steps.h"
 #include "world/entity/mass_properties.h"
 

@@ -1,5 +1,5 @@
 /* A body that stays on a line along its velocity has the same angular momentum about any point. */
-#include "collider/resting/drift_guard.h"
+#include "collider/guard/drift_guard.h"
 
 #include "collider/solver/overlap_shift.h"
 #include "world/entity/free_rotation.h"

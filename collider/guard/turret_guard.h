@@ -2,8 +2,8 @@
  * its own, the turret and then the gun, in the order of the rows, and stops where it touches
  * another body or a wall. So no part ends the frame in anything that its body did not end it in.
  * Pure; one thread. */
-#ifndef JOLON_COLLIDER_RESTING_TURRET_GUARD_H
-#define JOLON_COLLIDER_RESTING_TURRET_GUARD_H
+#ifndef JOLON_COLLIDER_GUARD_TURRET_GUARD_H
+#define JOLON_COLLIDER_GUARD_TURRET_GUARD_H
 
 #include "collider/response/response_context.h"
 

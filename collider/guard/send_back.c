@@ -1,8 +1,8 @@
 /* Poses between those at the frame's beginning and its end. */
-#include "collider/resting/send_back.h"
+#include "collider/guard/send_back.h"
 
 #include "collider/resting/contact_groups.h"
-#include "collider/resting/drift_guard.h"
+#include "collider/guard/drift_guard.h"
 #include "collider/resting/ground_placement.h"
 #include "collider/resting/held_rest.h"
 #include "world/entity/mass_properties.h"

@@ -1,7 +1,7 @@
-/* How the guard at a frame's end sends a body back on its way (collider/resting/end_guard.h). Pure;
+/* How the guard at a frame's end sends a body back on its way (collider/guard/end_guard.h). Pure;
  * one thread. */
-#ifndef JOLON_COLLIDER_RESTING_SEND_BACK_H
-#define JOLON_COLLIDER_RESTING_SEND_BACK_H
+#ifndef JOLON_COLLIDER_GUARD_SEND_BACK_H
+#define JOLON_COLLIDER_GUARD_SEND_BACK_H
 
 #include "collider/response/response_context.h"
 

@@ -2,13 +2,13 @@
  * it deeper in each other than they began it. Bodies that would are sent back by half of their
  * motion, three times, then a vehicle that drives by its turn alone, and at last to where they
  * stood when the frame began. Pure; one caller, and its workers. */
-#ifndef JOLON_COLLIDER_RESTING_END_GUARD_H
-#define JOLON_COLLIDER_RESTING_END_GUARD_H
+#ifndef JOLON_COLLIDER_GUARD_END_GUARD_H
+#define JOLON_COLLIDER_GUARD_END_GUARD_H
 
-#include "collider/resting/drift_guard.h"
+#include "collider/guard/drift_guard.h"
 #include "collider/resting/free_bodies.h"
 #include "collider/resting/resting.h"
-#include "collider/resting/tangled_wrecks.h"
+#include "collider/guard/tangled_wrecks.h"
 
 struct thread_pool;
 

@@ -2,8 +2,8 @@
  * would lose its velocity, and with it momentum that nothing takes up. So they go on together, as
  * after an impact without restitution: with the velocity of their common centre of mass. Pure; one
  * thread. */
-#ifndef JOLON_COLLIDER_RESTING_TANGLED_WRECKS_H
-#define JOLON_COLLIDER_RESTING_TANGLED_WRECKS_H
+#ifndef JOLON_COLLIDER_GUARD_TANGLED_WRECKS_H
+#define JOLON_COLLIDER_GUARD_TANGLED_WRECKS_H
 
 #include "collider/response/response_context.h"
 

@@ -1,5 +1,5 @@
 /* The guard at the end of a frame: which bodies it sends back, and how far. */
-#include "collider/resting/end_guard.h"
+#include "collider/guard/end_guard.h"
 
 #include "collider/geometry/level_gap.h"
 #include "tests/support/steps.h"

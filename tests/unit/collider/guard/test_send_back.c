@@ -1,6 +1,6 @@
 /* How bodies in the air go back on their way: those that go together with others keep what they do
  * together, and their velocity (row 46). */
-#include "collider/resting/send_back.h"
+#include "collider/guard/send_back.h"
 
 #include "tests/support/steps.h"
 #include "world/entity/mass_properties.h"
