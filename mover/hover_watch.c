@@ -2,6 +2,7 @@
 #include "mover/hover_watch.h"
 
 #include "mover/agent/aircraft_separation.h"
+#include "world/entity/row_words.h"
 #include "world/state.h"
 #include "world/terrain/gridsquare.h"
 #include "world/world.h"
@@ -151,7 +152,7 @@ void hover_watch_wake(struct hover_watch *watch, uint64_t *resting, const uint64
     if (watch->frames++ % FIND_FRAMES == 0)
         find_squares(watch, resting, context);
     for (uint32_t n = 0; n < words_of(used); n++) {
-        uint64_t there = UINT64_MAX >> (used - n * 64 < 64 ? 64 - (used - n * 64) : 0);
+        uint64_t there = row_words_below(n, used);
         for (uint64_t left = (~resting[n] | cruising[n]) & there; left != 0; left &= left - 1) {
             uint32_t i = n * 64 + (uint32_t)__builtin_ctzll(left);
             if (w->row[i].state != ENTITY_FREE &&

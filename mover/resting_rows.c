@@ -8,6 +8,7 @@
 #include "mover/motion/remote_motion.h"
 #include "mover/motion/ground/wreck.h"
 #include "world/entity/kind.h"
+#include "world/entity/row_words.h"
 #include "world/state.h"
 #include "world/terrain/crater.h"
 #include "world/world.h"
@@ -143,7 +144,7 @@ uint32_t resting_rows_awake(const struct resting_rows *rows, const struct step_c
         block->awake[w] = 0;
         if (row >= block->end)
             continue;
-        uint64_t there = UINT64_MAX >> (block->end - row < 64 ? 64 - (block->end - row) : 0);
+        uint64_t there = row_words_below(row / 64, block->end);
         uint64_t resting = rows->resting[row / 64], turns = rows->turns[row / 64];
         uint64_t due = due_of(context, row, there & resting & turns);
         /* An aircraft that rests only between its turns hovers as well. */

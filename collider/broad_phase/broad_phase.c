@@ -5,6 +5,7 @@
 #include "world/entity/entity.h"
 #include "world/entity/kind.h"
 #include "world/entity/persistent_contact.h"
+#include "world/entity/row_words.h"
 #include "world/maths/sort.h"
 #include "world/params.h"
 #include "world/runtime/prefault.h"
@@ -398,7 +399,7 @@ void broad_phase_expect_queries(struct broad_phase *broad, uint32_t queries)
 bool broad_phase_has_records(const struct broad_phase *broad, uint32_t rows)
 {
     for (uint32_t w = 0; broad->index.built && w * 64 < rows; w++) {
-        uint64_t used = UINT64_MAX >> (rows - w * 64 < 64 ? 64 - (rows - w * 64) : 0);
+        uint64_t used = row_words_below(w, rows);
         /* A row that cruises and begins nothing is held, and has no record. */
         if (used & (~broad->binned[w] | (broad->cruise.held[w] & ~broad->resting.awake[w])))
             return false;

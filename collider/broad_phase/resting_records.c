@@ -3,6 +3,7 @@
 
 #include "collider/motion/ground_impact.h"
 #include "world/entity/entity.h"
+#include "world/entity/row_words.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -67,20 +68,11 @@ void resting_records_forget(struct resting_records *resting)
     memset(resting->kept, 0, resting->words * sizeof *resting->kept);
 }
 
-/* Returns the bits of the rows of a word that are below a number of rows. */
-static uint64_t below(uint32_t word, uint32_t rows)
-{
-    uint32_t first = word * 64;
-    if (first >= rows)
-        return 0;
-    return UINT64_MAX >> (rows - first < 64 ? 64 - (rows - first) : 0);
-}
-
 void resting_records_begin(struct resting_records *resting, const struct method_input *input)
 {
     uint32_t craters = input->craters ? input->craters->count : 0;
     for (uint32_t w = input->rows / 64; w * 64 < resting->rows; w++)
-        resting->kept[w] &= below(w, input->rows);
+        resting->kept[w] &= row_words_below(w, input->rows);
     for (uint32_t w = 0; craters != resting->craters && w < resting->words; w++)
         resting->kept[w] &= ~resting->flies[w];
     resting->craters = craters;
@@ -99,7 +91,8 @@ uint32_t resting_records_note(struct resting_records *resting, uint32_t block,
         resting->awake[word] = moves;
         resting->kept[word] &= ~moves;
         resting->moved[word] |= moves | held[word];
-        bin[w] = below(word, resting->rows) & ~resting->kept[word] & (moves | ~held[word]);
+        bin[w] =
+            row_words_below(word, resting->rows) & ~resting->kept[word] & (moves | ~held[word]);
         if (bin[w] != 0) /* a call where the processor may not count bits */
             count += (uint32_t)__builtin_popcountll(bin[w]);
     }
@@ -114,7 +107,8 @@ static bool few_move(const struct resting_records *resting, uint32_t block)
     uint32_t count = 0;
     for (uint32_t w = 0; w < RESTING_RECORDS_WORDS; w++) {
         uint32_t word = block * RESTING_RECORDS_WORDS + w;
-        count += (uint32_t)__builtin_popcountll(resting->moved[word] & below(word, resting->rows));
+        count += (uint32_t)__builtin_popcountll(resting->moved[word] &
+                                                row_words_below(word, resting->rows));
     }
     return count <= RESTING_RECORDS_ROWS / MOVING_SHARE;
 }
@@ -133,7 +127,7 @@ static void look(struct resting_records *resting, uint64_t *held, uint64_t *fres
         bool few = few_move(resting, block);
         for (uint32_t w = 0; w < RESTING_RECORDS_WORDS; w++) {
             uint32_t word = block * RESTING_RECORDS_WORDS + w;
-            uint64_t there = below(word, resting->rows);
+            uint64_t there = row_words_below(word, resting->rows);
             if (!few)
                 resting->moved[word] |= ~resting->kept[word];
             *held += (uint64_t)__builtin_popcountll(resting->kept[word]);
@@ -181,7 +175,8 @@ static void build(struct resting_records *resting, const struct body_boxes *rows
     strip_bins_clear(&sweeper->bins);
     sweeper->fliers.count = 0;
     for (uint32_t word = 0; word * 64 < resting->rows; word++) {
-        uint64_t bits = below(word, resting->rows) & (resting->kept[word] | ~resting->moved[word]);
+        uint64_t bits =
+            row_words_below(word, resting->rows) & (resting->kept[word] | ~resting->moved[word]);
         resting->kept[word] = sort_out(resting, rows, word, bits);
         if (resting->kept[word] != 0)
             body_boxes_bin_some(rows, sweeper, word * 64, resting->kept[word]);

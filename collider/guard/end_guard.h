@@ -6,9 +6,9 @@
 #define JOLON_COLLIDER_GUARD_END_GUARD_H
 
 #include "collider/guard/drift_guard.h"
+#include "collider/guard/tangled_wrecks.h"
 #include "collider/resting/free_bodies.h"
 #include "collider/resting/resting.h"
-#include "collider/guard/tangled_wrecks.h"
 
 struct thread_pool;
 

@@ -67,12 +67,11 @@ static struct solver_body solve_body_of(const struct response_context *context,
     uint32_t row = body->row;
     const struct mass_properties inertia =
         mass_properties_of(&context->world->kinds[e->row[row].kind]);
-    struct quat orientation = body_motion_orientation(context->motion, row, time);
-    struct mat3 turn = rotation_matrix(orientation);
+    struct mat3 turn = rotation_matrix(body_motion_orientation(context->motion, row, time));
     double light = 1.0 / inertia.mass_kg;
     body->grounded = path_change_grounded(context, row);
     body->flies = context->world->kinds[e->row[row].kind].domain == DOMAIN_AIR;
-    body->arm = path_change_arm(context, row, orientation);
+    body->arm = path_change_arm(context, row, &turn);
     struct solver_body solve = {
         .centre = vec3_add(path_at(&context->path[row], time), body->arm),
     };

@@ -98,12 +98,12 @@ bool path_change_on_course(const struct response_context *context, uint32_t row)
            path_change_grounded(context, row);
 }
 
-struct vec3 path_change_arm(const struct response_context *context, uint32_t row, struct quat turn)
+struct vec3 path_change_arm(const struct response_context *context, uint32_t row,
+                            const struct mat3 *axes)
 {
     const struct kind *kind = &context->world->kinds[context->next->entities.row[row].kind];
     const struct vec3 up = {0.0, mass_properties_of(kind).centre_m, 0.0};
-    const struct mat3 axes = rotation_matrix(turn);
-    return path_change_on_course(context, row) ? up : rotation_apply(&axes, up);
+    return path_change_on_course(context, row) ? up : rotation_apply(axes, up);
 }
 
 /* A land vehicle that is pushed moves on as a body on its springs. */

@@ -42,9 +42,10 @@ bool path_change_grounded(const struct response_context *context, uint32_t row);
  * turns about the vertical. */
 bool path_change_on_course(const struct response_context *context, uint32_t row);
 
-/* Returns the centre of mass of a row with this rotation, from its position [m, world axes]. That
- * of a row on its course counts as above its position, as if it stood level: its velocity is that
- * of its position. */
-struct vec3 path_change_arm(const struct response_context *context, uint32_t row, struct quat turn);
+/* Returns the centre of mass of a row with these axes, from its position [m, world axes]. That of a
+ * row on its course counts as above its position, as if it stood level: its velocity is that of its
+ * position. */
+struct vec3 path_change_arm(const struct response_context *context, uint32_t row,
+                            const struct mat3 *axes);
 
 #endif

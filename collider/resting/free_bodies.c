@@ -196,7 +196,7 @@ static uint32_t body_for(struct free_bodies *bodies, const struct response_conte
         .at = entities_position(w, row),
         .parent = index};
     struct mat3 axes = rotation_matrix(side->turn);
-    side->arm = path_change_arm(context, row, side->turn);
+    side->arm = path_change_arm(context, row, &axes);
     *body = (struct free_body){.inverse_mass = 1.0 / side->mass.mass_kg};
     if (side->is_free) {
         body->inverse_inertia = mass_properties_inverse_world(&side->mass, &axes);

@@ -3,6 +3,7 @@
 
 #include "world/checksum.h"
 #include "world/entity/remote.h"
+#include "world/entity/row_words.h"
 #include "world/runtime/prefault.h"
 #include "world/terrain/gridsquare.h"
 
@@ -437,8 +438,7 @@ static uint32_t count_awake(const struct neighbour_index_frame *frame)
     if (!frame->resting)
         return frame->used;
     for (uint32_t first = 0; first < frame->used; first += 64) {
-        uint64_t there = UINT64_MAX >> (frame->used - first < 64 ? 64 - (frame->used - first) : 0);
-        uint64_t bits = there & ~frame->resting[first / 64];
+        uint64_t bits = row_words_below(first / 64, frame->used) & ~frame->resting[first / 64];
         if (bits != 0) /* a call where the processor may not count bits */
             awake += (uint32_t)__builtin_popcountll(bits);
     }
